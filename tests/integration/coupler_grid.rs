@@ -800,7 +800,8 @@ fn a_page_on_which_nothing_varies_has_the_title_of_its_family() {
 
 #[test]
 fn the_key_names_both_coordinates_of_a_point_on_small_paper() {
-    for paper in ["\"tabloid\"", "{ width = \"210 mm\", height = \"148 mm\" }"] {
+    let small = ["{ width = \"210 mm\", height = \"148 mm\" }", "{ width = \"105 mm\", height = \"148 mm\" }"];
+    for paper in ["\"tabloid\"", small[0], small[1]] {
         let text = format!(
             "[atlas]\ntitle = \"T\"\n[page]\npaper = {paper}\n[[family]]\nid = \"f\"\nlinkage = \"hrones-nelson\"\n\
              layout = \"coupler-grid\"\ncases = [{{ A = 2.5, B = 3, C = 2 }}]\n"
@@ -809,5 +810,35 @@ fn the_key_names_both_coordinates_of_a_point_on_small_paper() {
         // In the key and at the head of a column.
         let count = |name: &str| texts.iter().filter(|text| *text == name).count();
         assert_eq!(["along", "across"].map(count), [2, 2], "{paper}: {texts:?}");
+        assert!(!texts.iter().any(|text| text.ends_with(" more")), "{paper}: {texts:?}");
+    }
+}
+
+#[test]
+fn the_pages_of_a_linkage_have_the_same_columns() {
+    // Only points near the first page have cusps.
+    let (_, pages) = first(&GOOD.replace("from = -1, to = 1, count = 4", "from = 0, to = 3, count = 4"));
+    let heads = |scene: &Scene| -> Vec<(String, u64)> {
+        let all = texts(scene).into_iter().map(|(_, text)| (content(text), text.position.x.to_bits()));
+        all.filter(|(text, _)| {
+            ["along", "across", "length", "from", "over", "radius", "cusps"].contains(&text.as_str())
+        })
+        .collect()
+    };
+    let in_table = |scene: &Scene| heads(scene).split_off(2);
+    assert_eq!(in_table(&pages[0].0), in_table(&pages[1].0));
+}
+
+#[test]
+fn names_in_the_key_touch_no_line_on_small_paper() {
+    let plan = example();
+    for scene in all_pages(&plan, 97, &options((105.0, 148.0))) {
+        let names = texts(&scene).into_iter().filter(|(_, text)| ["along", "0°"].contains(&content(text).as_str()));
+        for (_, name) in names.take(2) {
+            let rect = Rect::from_text(name, [0.7, 0.0]);
+            let lines = paths(&scene, &["key"]).into_iter().flat_map(|path| &path.polylines);
+            let touches = |p: &[Point]| rect.distance_to_segment(p[0], p[1]) < 1e-3;
+            assert!(lines.into_iter().all(|line| !line.points.windows(2).any(touches)), "{}", content(name));
+        }
     }
 }

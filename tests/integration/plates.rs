@@ -335,6 +335,70 @@ fn a_key_of_many_joints_is_complete_or_says_what_it_leaves_out() {
     assert!(missing > 50 && is_said, "{missing}");
 }
 
+/// The numbers of an attribute of the elements of some markup.
+fn attributes(markup: &str, name: &str) -> Vec<f64> {
+    let start = format!(" {name}=\"");
+    let values = markup.split(&start).skip(1);
+    values.map(|value| value.split('"').next().unwrap().parse().unwrap()).collect()
+}
+
+/// The only page of a family, on paper of a size in millimetres.
+fn page_on_paper([width, height]: [u32; 2], text: &str) -> String {
+    let paper = format!("paper = {{ width = \"{width} mm\", height = \"{height} mm\" }}");
+    let folder = folder_with(&format!("[atlas]\ntitle = \"T\"\n[page]\n{paper}\n[[family]]\nid = \"f\"\n{text}"));
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap()
+}
+
+#[test]
+fn small_paper_has_a_key_or_says_what_paper_it_needs() {
+    const A6: [u32; 2] = [105, 148];
+    let chart = |grid: &str, y: &str| {
+        format!(
+            "linkage = \"evans\"\nlayout = \"chart\"\npanels = {grid}\nchart = {{ x = \"p\", y = [{y}] }}\n\
+             grid = {{ p = [2, 3] }}\nlet = {{ a = 2.6 }}"
+        )
+    };
+    let panels =
+        |grid: &str| format!("linkage = \"evans\"\npanels = {grid}\ngrid = {{ p = [2, 2.5, 3] }}\nlet = {{ a = 2.6 }}");
+    let has_key = |svg: &str| texts(svg).iter().any(|line| line == "pin of the crank, OA = r");
+    let note = |svg: &str| texts(svg).into_iter().find(|line| line.starts_with("the key is left out"));
+    for text in [chart("[1, 1]", "\"length\""), panels("[1, 1]")] {
+        let svg = page_on_paper(A6, &text);
+        assert!(has_key(&svg) && note(&svg).is_none(), "{:?}", texts(&svg));
+    }
+    for text in [chart("[1, 4]", "\"length\", \"area\", \"bbox_x_min\", \"bbox_x_max\""), panels("[2, 4]")] {
+        let svg = page_on_paper(A6, &text);
+        let said = note(&svg).unwrap_or_else(|| panic!("{:?}", texts(&svg)));
+        let sides: Vec<u32> = said.split(' ').filter_map(|word| word.parse().ok()).collect();
+        let svg = page_on_paper([sides[0], sides[1]], &text);
+        assert!(!has_key(&page_on_paper(A6, &text)) && has_key(&svg), "{said}: {:?}", texts(&svg));
+    }
+}
+
+#[test]
+fn joints_have_one_size_on_a_page_and_texts_keep_to_its_margins() {
+    // The first crank is too short to be seen between the smallest joints.
+    let svg = page_on_paper(
+        [432, 279],
+        "linkage = \"four-bar\"\npanels = [3, 1]\ngrid = { crank = [0.002, 0.1, 1] }\n\
+         let = { frame = 4, coupler = 3, rocker = 3.5, along = 3, across = 1 }\ncaption = \"{crank} and {frame} and {coupler} and {rocker}\"",
+    );
+    let linkages = groups(&svg, "linkage");
+    let radii = |linkage: &&str| -> Vec<u64> { attributes(linkage, "r").into_iter().map(f64::to_bits).collect() };
+    assert_eq!(linkages[..3].iter().map(radii).collect::<HashSet<_>>().len(), 1);
+    // Border and margin are 8 mm each.
+    let number = svg.split("<text ").find(|text| text.contains(">1</text>")).unwrap();
+    assert!(attributes(&format!(" {number}"), "x")[0] >= 16.0, "{number}");
+}
+
+#[test]
+fn ticks_have_the_inputs_of_the_tables() {
+    let svg = page_on_paper([432, 279], "linkage = \"rack-steering\"\ncases = [{}]");
+    let lines = texts(&svg);
+    assert!(["−90", "−360"].iter().all(|input| lines.iter().any(|line| line == input)), "{lines:?}");
+}
+
 #[test]
 fn circuits_that_are_apart_are_enlarged_in_frames_of_their_own() {
     // Two small mirror images, far from each other.

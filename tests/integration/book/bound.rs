@@ -9,7 +9,7 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, PageFinisher, Volume};
 use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::pdf::Book;
-use coupler_drawing::scene::{Item, PageLink, Scene};
+use coupler_drawing::scene::{Item, PageLink, Scene, Text};
 
 use super::reader::{Contents, Pdf};
 
@@ -290,6 +290,46 @@ fn the_index_lists_the_best_first() {
     let residuals = section("By symmetry", "", " %");
     assert!(residuals.len() == 4 && residuals.is_sorted(), "{residuals:?}");
     assert!(residuals[..2] == [0.0, 0.0] && residuals[2] > 0.0 && residuals[3] <= 1.0, "{residuals:?}");
+}
+
+#[test]
+fn a_small_index_has_the_dimensions_whole_and_its_marks_are_not_cut_off() {
+    let plan = plan();
+    let solved = solve_families(&plan);
+    let title = "Linkages with a long title, as they are in the thesis and in the tables of its appendices";
+    let mut atlas = atlas(&plan, &solved);
+    atlas.chapters.iter_mut().for_each(|chapter| chapter.title = title);
+    atlas.index = pages(&plan, &solved).1;
+    atlas.tabs = (1..=3).map(|k| book::Tab { number: Some(k), label: "gears".to_owned(), first_page: k }).collect();
+    let a6 = options(Paper { width: 105.0, height: 148.0 });
+    let [volume] = atlas.volumes(1000, &a6).try_into().unwrap();
+    let back = book::compose_back_matter(&atlas, &volume, 2, &a6);
+    let lines: Vec<String> = back.iter().flat_map(texts).collect();
+    for (k, solved) in solved.iter().enumerate().flat_map(|(k, all)| all.iter().map(move |solved| (k, solved))) {
+        let whole = caption(&plan, k, solved);
+        assert!(lines.join(" ").replace('\u{2003}', " ").contains(&whole), "{whole}: {lines:?}");
+    }
+    for (k, mut scene) in back.into_iter().enumerate() {
+        PageFinisher::new(&atlas, &volume, 2, &a6).finish(&mut scene, k);
+        let mut marks = Vec::new();
+        placed_texts(&scene.items, &mut marks);
+        // The height of letters is beside the baseline of those that are turned, and above that of the folio.
+        let marks = marks.iter().filter(|text| text.words().ends_with("gears"));
+        let distances: Vec<f64> =
+            marks.map(|text| text.position.x.min(105.0 - text.position.x) - 0.76 * text.size).collect();
+        assert!(distances.len() == 3 && distances.iter().all(|distance| *distance > 2.0 - 1e-9), "{distances:?}");
+    }
+}
+
+/// The texts of items.
+fn placed_texts<'s>(items: &'s [Item], found: &mut Vec<&'s Text>) {
+    for item in items {
+        match item {
+            Item::Group(group) => placed_texts(&group.items, found),
+            Item::Text(text) => found.push(text),
+            _ => {}
+        }
+    }
 }
 
 #[test]

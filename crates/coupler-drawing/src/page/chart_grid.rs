@@ -3,10 +3,15 @@
 use super::Paper;
 use super::balanced_grid::balanced_grid;
 use super::heading::contents_size;
+use super::key_drawing::{self, Beside};
+use super::rect::Rect;
 use super::theme::Theme;
-use coupler_curves::geometry::Vector;
+use coupler_curves::geometry::{Point, Vector};
 
-/// The most columns and rows of charts on a page: at its smallest, a chart is 18 ems of a caption wide and 12 high.
+/// The least width and height of a chart, in ems of a caption.
+const LEAST: [f64; 2] = [18.0, 12.0];
+
+/// The most columns and rows of charts on a page.
 pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
     max_in(contents_size(paper, theme), theme)
 }
@@ -15,14 +20,21 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
 pub(super) fn max_in(contents: Vector, theme: &Theme) -> [usize; 2] {
     let em = theme.for_panel_size(Vector::zeros()).caption_size;
     let fit = |length: f64, least: f64| ((length / least).floor() as usize).max(1);
-    [fit(contents.x, 18.0 * em), fit(contents.y, 12.0 * em)]
+    [fit(contents.x, LEAST[0] * em), fit(contents.y, LEAST[1] * em)]
 }
 
-/// The columns and rows for `count` charts: at most six on a page, each about 1.5 times as wide as high.
+/// Charts beside a key.
+pub(super) fn beside_key(grid: [usize; 2]) -> Beside {
+    Beside { grid, least: LEAST, least_on_small_paper: LEAST }
+}
+
+/// The columns and rows for `count` charts: at most six on a page, each about 1.5 times as wide as high, so that the key has room.
 pub(super) fn for_charts(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MAX_CHARTS: usize = 6;
     const ASPECT_RATIO: f64 = 1.5;
-    balanced_grid(contents_size(paper, theme), max_grid(paper, theme), count.min(MAX_CHARTS), ASPECT_RATIO)
+    let contents = Rect { corner: Point::origin(), size: contents_size(paper, theme) };
+    let (charts, _) = key_drawing::divide(contents, beside_key([1, 1]), None, theme);
+    balanced_grid(contents.size, max_in(charts.size, theme), count.min(MAX_CHARTS), ASPECT_RATIO)
 }
 
 #[cfg(test)]

@@ -191,7 +191,7 @@ const MAX_FOLIO_PART: f64 = 0.5;
 const SEPARATOR: &str = " · ";
 
 /// The distance of the lines under the title, in ems.
-const SOURCE_LEADING: f64 = 1.35;
+pub(super) const SOURCE_LEADING: f64 = 1.35;
 
 /// The baseline of the last line of a page.
 pub(super) fn foot_baseline(page: Vector, theme: &Theme) -> f64 {
@@ -205,19 +205,33 @@ pub(super) fn draw_border(root: &impl Area, theme: &Theme) {
     root.record_rectangle(corners, theme.stroke(theme.ink, theme.fine_width));
 }
 
+/// The distance of the lines of a title, in their size.
+const TITLE_LEADING: f64 = 1.2;
+
+/// The lines of a title on paper of a width.
+fn title_lines(title: &str, paper_width: f64, theme: &Theme) -> Vec<TextLine> {
+    let width = paper_width - 2.0 * (theme.border + theme.margin);
+    theme.text_line(title, Point::origin(), Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width)
+}
+
 /// Draws the title of a page, in as many lines as it needs; the position at which the line under it starts.
 pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point {
-    let left = theme.border + theme.margin;
-    let width = root.size().x - 2.0 * left;
-    let mut at = Point::new(left, theme.border + 1.9 * theme.title_size);
+    let mut at = Point::new(theme.border + theme.margin, theme.border + 1.9 * theme.title_size);
     root.grouped(Group::of_class(TITLE), || {
-        for line in theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width) {
+        for line in title_lines(title, root.size().x, theme) {
             let size = line.text.size;
             root.record(line.moved_to(at));
-            at.y += 1.2 * size;
+            at.y += TITLE_LEADING * size;
         }
     });
-    Point::new(left, at.y - 1.2 * theme.title_size + 1.85 * theme.source_size)
+    Point::new(at.x, at.y - TITLE_LEADING * theme.title_size + 1.85 * theme.source_size)
+}
+
+/// The least y of the contents of a page with a title and so many lines under it.
+pub(super) fn contents_top(title: &str, line_count: usize, paper: Paper, theme: &Theme) -> f64 {
+    let title: f64 = title_lines(title, paper.width, theme).iter().map(|line| TITLE_LEADING * line.text.size).sum();
+    let below = SOURCE_LEADING * theme.source_size * line_count.saturating_sub(1) as f64;
+    margins(theme)[0] + (title - TITLE_LEADING * theme.title_size).max(0.0) + below
 }
 
 /// The size of the contents of a page, in millimetres.
@@ -230,5 +244,5 @@ pub(super) fn contents_size(paper: Paper, theme: &Theme) -> Vector {
 pub(super) fn margins(theme: &Theme) -> [f64; 3] {
     let top = theme.border + 2.3 * theme.title_size + 3.2 * theme.source_size;
     let bottom = theme.border + theme.margin + theme.source_size;
-    [top, bottom, theme.border + 0.5 * theme.margin]
+    [top, bottom, theme.border + theme.margin]
 }

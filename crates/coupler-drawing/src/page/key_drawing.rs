@@ -4,6 +4,7 @@ use super::area::Area;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
+use super::heading;
 use super::key::Key;
 use super::labels::{LabelPlacer, Obstacles};
 use super::mechanism::PosedMechanism;
@@ -11,6 +12,7 @@ use super::plot::Plot;
 use super::pose;
 use super::rect::Rect;
 use super::theme::Theme;
+use super::{Options, Paper};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Group, Item, MIN_TEXT_SIZE, Text};
 use coupler_curves::expression::{MathText, displayed_name};
@@ -21,25 +23,84 @@ use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 /// The width of a line of text of the key, in ems of a note.
 const COLUMN_WIDTH: f64 = 24.0;
 
+/// The part of the width of a strip that its drawing takes, at most.
+const STRIP_DRAWING_PART: f64 = 0.4;
+
 /// The greatest width of a name at a joint, as a part of the drawing.
 const MAX_NAME_PART: f64 = 0.3;
 
+/// What a key is drawn beside: panels or charts in columns and rows, with the least size of one.
+#[derive(Clone, Copy)]
+pub(super) struct Beside {
+    pub grid: [usize; 2],
+    /// The least width and height of one, in ems of a caption.
+    pub least: [f64; 2],
+    /// The same where the key takes more than the usual part of its page.
+    pub least_on_small_paper: [f64; 2],
+}
+
+impl Beside {
+    /// Whether all have the least size in contents of a size.
+    fn fits(self, size: Vector, is_small: bool, theme: &Theme) -> bool {
+        let em = theme.for_panel_size(Vector::zeros()).caption_size;
+        let least = if is_small { self.least_on_small_paper } else { self.least };
+        (0..2).all(|k| size[k] >= self.grid[k] as f64 * least[k] * em)
+    }
+}
+
 /// Divides the contents of a page into the part for panels and that for the key: a column on the right of a wide page,
 /// a strip at the foot of a high one. `None` for the key if it would leave too little to the panels.
-pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
-    /// The most of the page that the key takes.
-    const MAX_PART: f64 = 0.36;
+pub(super) fn divide(contents: Rect, beside: Beside, key: Option<&Key>, theme: &Theme) -> (Rect, Option<Rect>) {
+    /// The part of the page that the key takes, and the most that it takes where the panels are large enough.
+    const PARTS: [f64; 2] = [0.36, 0.56];
     let em = theme.note_size;
     let is_wide = contents.size.x > 1.1 * contents.size.y;
-    let (whole, needed) =
+    let (whole, usual) =
         if is_wide { (contents.size.x, COLUMN_WIDTH * em) } else { (contents.size.y, 1.1 * COLUMN_WIDTH * em) };
-    if needed > MAX_PART * whole {
-        return (contents, None);
-    }
+    let is_small = usual > PARTS[0] * whole;
+    let needed = match key.filter(|_| is_small && !is_wide) {
+        // A strip is no higher than its lines.
+        Some(key) => strip_height(contents.size.x, key, theme).min(usual),
+        None => usual,
+    };
     let along = |length: f64| if is_wide { Vector::new(length, 0.0) } else { Vector::new(0.0, length) };
     let panels = Rect { size: contents.size - along(needed + em), ..contents };
+    if needed > PARTS[1] * whole || !beside.fits(panels.size, is_small, theme) {
+        return (contents, None);
+    }
     let key = Rect { corner: contents.corner + along(whole - needed), size: contents.size - along(whole - needed) };
     (panels, Some(key))
+}
+
+/// The height of a strip with the lines of a key.
+fn strip_height(width: f64, key: &Key, theme: &Theme) -> f64 {
+    /// The least height, in ems, and the remarks on the drawing that are added to those of the key.
+    const LEAST: f64 = 15.0;
+    const MORE_REMARKS: f64 = 3.0;
+    let em = theme.note_size;
+    let text = (1.0 - STRIP_DRAWING_PART) * width - em - theme.margin;
+    let lines = lines_height(text, &[], key, theme) + MORE_REMARKS * KeyLines::LEADING * em;
+    theme.margin + lines.max(LEAST * em)
+}
+
+/// What is said on a page whose key is left out, as its panels leave no room to it in contents of this size.
+pub(super) fn left_out_note(contents: Vector, beside: Beside, key: &Key, options: &Options) -> String {
+    /// Papers are larger in steps of this, in millimetres.
+    const STEP: f64 = 5.0;
+    let own = options.paper;
+    let taken = heading::contents_size(own, &options.theme.for_paper(own)) - contents;
+    let larger = (1..=60).map(|k| {
+        let side = |side: f64| (side * (1.0 + 0.05 * f64::from(k)) / STEP).ceil() * STEP;
+        Paper { width: side(own.width), height: side(own.height) }
+    });
+    let has_room = |paper: &Paper| {
+        let theme = &options.theme.for_paper(*paper);
+        let contents = Rect { corner: Point::origin(), size: heading::contents_size(*paper, theme) - taken };
+        divide(contents, beside, Some(key), theme).1.is_some()
+    };
+    let paper = larger.into_iter().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
+    let paper = paper.map_or("larger paper".to_owned(), |size| format!("paper of {size}"));
+    format!("the key is left out: it needs {paper} or fewer figures")
 }
 
 /// The figure whose linkage a key shows: the first of those with the most joints, as a joint at an offset of 0 is not drawn, in which no
@@ -71,7 +132,7 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
     let is_column = rect.size.x < 1.4 * rect.size.y;
     let drawing = match is_column {
         true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
-        false => Vector::new((1.2 * rect.size.y).min(0.4 * rect.size.x), rect.size.y),
+        false => Vector::new((1.2 * rect.size.y).min(STRIP_DRAWING_PART * rect.size.x), rect.size.y),
     };
     let text_corner = match is_column {
         true => rect.corner + Vector::new(0.0, drawing.y + em),

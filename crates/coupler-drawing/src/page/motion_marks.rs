@@ -121,9 +121,9 @@ impl TickPoses {
         TickPoses { steps, is_angle: linkage.input() != Input::Length, passes }
     }
 
-    /// The number at a tick, if it has one: an angle is from 0 up to a turn.
+    /// The number at a tick, if it has one.
     fn number_at(&self, input: f64) -> Option<String> {
-        let input = if self.is_angle { input.rem_euclid(360.0) } else { round_to_six_digits(input) };
+        let input = if self.is_angle { input } else { round_to_six_digits(input) };
         let count = input / self.steps.number;
         ((count - count.round()).abs() < 1e-9).then(|| format_exactly(input))
     }

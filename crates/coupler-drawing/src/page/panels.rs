@@ -7,7 +7,7 @@ use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
 use super::heading::{contents_size, margins};
 use super::key::Key;
-use super::key_drawing;
+use super::key_drawing::{self, Beside};
 use super::plot::is_reduced;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
@@ -24,18 +24,25 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     // All panels have the dashes of the one with the greatest range of the input.
     let period = figures.iter().flatten().map(|figure| figure.dash_period(options)).fold(0.0, f64::max);
     let mut symbols = page_symbols(page, &figures, period, theme);
-    // The scale is known after the panels are arranged; no statement of it is wider than this one.
-    let above_foot =
-        layout_symbols(root, page, &symbols, symbols::scale_bar(Some(1234.0), None, page.heading.unit), theme).1;
-    let [_, _, side] = margins(theme);
-    let contents = Rect {
-        corner: Point::new(side, top),
-        size: Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y)),
+    let contents = |symbols: &[Symbol]| {
+        // The scale is known after the panels are arranged; no statement of it is wider than this one.
+        let scale = symbols::scale_bar(Some(1234.0), None, page.heading.unit);
+        let above_foot = layout_symbols(root, page, symbols, scale, theme).1;
+        let [_, _, side] = margins(theme);
+        let size = Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y));
+        Rect { corner: Point::new(side, top), size }
     };
-    let (panels, key) = match page.key {
-        Some(_) => key_drawing::divide(contents, theme),
-        None => (contents, None),
+    let whole = contents(&symbols);
+    let beside = beside_key(page.layout.grid());
+    let (mut panels, key) = match page.key {
+        Some(key) => key_drawing::divide(whole, beside, Some(key), theme),
+        None => (whole, None),
     };
+    if let (Some(of_page), None, false) = (page.key, key, symbols.is_empty()) {
+        let meaning = key_drawing::left_out_note(whole.size, beside, of_page, options);
+        symbols.push(Symbol { mark: Mark::Letter("…"), meaning });
+        panels = contents(&symbols);
+    }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
     let drawn = draw_panels(&area, page, &figures, period, theme);
@@ -203,6 +210,12 @@ fn draw_panels<A: Area>(
     };
     // The smallest joints, of a third of the radius, would hide a shorter crank as well.
     let can_be_seen = |length: &f64| *length >= 0.75 * theme.joint_radius;
+    // Joints have one size on a page, with which every crank is seen that can be.
+    let shortest_crank = drawn().filter_map(crank_on_paper).filter(can_be_seen).fold(f64::INFINITY, f64::min);
+    let figure_theme = &theme.for_crank_length(shortest_crank);
+    // Ticks on an enlarged curve are as long as without such a crank.
+    let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
+    let themes = [curve_theme, figure_theme];
     let (mut has_enlarged, mut fitting_scale) = (false, f64::INFINITY);
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
@@ -214,11 +227,6 @@ fn draw_panels<A: Area>(
         area.grouped(group, || {
             match figure {
                 Some(figure) => {
-                    let crank = crank_on_paper((figure, area)).filter(can_be_seen);
-                    let figure_theme = &theme.for_crank_length(crank.unwrap_or(f64::INFINITY));
-                    // Ticks on an enlarged curve are as long as without such a crank.
-                    let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
-                    let themes = [curve_theme, figure_theme];
                     let arrangement = figure.arrangement(arrangement, frame, scale, themes);
                     has_enlarged |= arrangement != Arrangement::Combined;
                     let fitting = figure.draw(area, frame, (arrangement, scale, period), page, themes);
@@ -316,13 +324,19 @@ impl FactsLayout {
 /// The most columns and rows of panels on a page: at its smallest, a panel has four lines of text under a figure five
 /// lines high.
 pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
-    let [top, bottom, side] = margins(theme);
-    let theme = theme.for_panel_size(Vector::zeros());
+    max_in(contents_size(paper, theme), theme)
+}
+
+/// The most columns and rows of panels in contents of a size.
+fn max_in(contents: Vector, theme: &Theme) -> [usize; 2] {
+    let em = theme.for_panel_size(Vector::zeros()).caption_size;
     let fit = |length: f64, least: f64| ((length / least).floor() as usize).max(1);
-    [
-        fit(paper.width - 2.0 * side, 5.0 * theme.caption_size),
-        fit(paper.height - top - bottom, 10.5 * theme.caption_size),
-    ]
+    [fit(contents.x, 5.0 * em), fit(contents.y, 10.5 * em)]
+}
+
+/// Panels beside a key: on small paper large enough for a figure, and for four lines of text under it.
+fn beside_key(grid: [usize; 2]) -> Beside {
+    Beside { grid, least: [0.0, 0.0], least_on_small_paper: [8.0, 14.0] }
 }
 
 /// The columns and rows for `count` cells: some fifteen at most on a page, each about as wide as high with its caption. A wide page has its key on the
@@ -330,8 +344,9 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
 pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MOST: usize = 15;
     const ASPECT_RATIO: f64 = 1.0;
-    let (contents, _) = key_drawing::divide(Rect { corner: Point::origin(), size: contents_size(paper, theme) }, theme);
-    balanced_grid(contents.size, max_grid(paper, theme), count.min(MOST), ASPECT_RATIO)
+    let contents = Rect { corner: Point::origin(), size: contents_size(paper, theme) };
+    let (contents, _) = key_drawing::divide(contents, beside_key([1, 1]), None, theme);
+    balanced_grid(contents.size, max_in(contents.size, theme), count.min(MOST), ASPECT_RATIO)
 }
 
 /// Draws the lines under a figure from `top`, as many as fit.
@@ -359,9 +374,10 @@ pub(super) fn draw_not_assembled(area: &impl Area, frame: Rect, cell: &SolvedCel
     let reason = text_line(&reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
     lines.extend(reason.iter().map(|line| text_line(line, theme.note_size, theme.grey).text));
     let step = 1.5 * theme.note_size;
-    // In a small panel the beginning of the reason.
-    lines.truncate(((frame.size.y / step).floor() as usize).max(1));
-    let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
+    // In a small panel the beginning of the reason, below the number of the cell.
+    let top = frame.corner.y + theme.note_size + step;
+    lines.truncate((((frame.corner.y + frame.size.y - top) / step).floor() as usize + 1).max(1));
+    let first = (centre.y - step * (lines.len() - 1) as f64 / 2.0).max(top);
     for (k, text) in lines.iter_mut().enumerate() {
         text.position.y = first + step * k as f64;
     }

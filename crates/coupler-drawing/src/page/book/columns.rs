@@ -7,7 +7,7 @@ use super::super::heading;
 use super::super::theme::Theme;
 use super::atlas::{Atlas, Volume};
 use super::empty_scene::empty_scene;
-use crate::scene::{Anchor, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene, Text};
+use crate::scene::{Anchor, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A page that a list refers to.
@@ -88,16 +88,33 @@ pub(super) struct Entry<'a> {
 }
 
 impl Entry<'_> {
-    /// The family and the caption at a position, in one line.
-    fn text_line(&self, at: Point, theme: &Theme) -> TextLine {
+    /// The family and the caption in one line.
+    fn text_line(&self, theme: &Theme) -> TextLine {
         let family = self.family.map_or(String::new(), |family| format!("{family} · "));
-        let mut line = text_line(&family, at, Anchor::Start, theme.note_size, theme);
+        let mut line = entry_line(&family, theme);
         // Only the caption contains names of parameters.
-        line.text.runs.extend(
-            text_line(self.caption, at, Anchor::Start, theme.note_size, theme).with_italics(self.symbols).text.runs,
-        );
+        line.text.runs.extend(entry_line(self.caption, theme).with_italics(self.symbols).text.runs);
         line.text.runs.retain(|run| !run.text.is_empty());
         line
+    }
+
+    /// The family and the caption in a line of the first width, or else in several, the others of the second width: the caption, by which a
+    /// linkage is built, is whole. A first line with too little room is empty.
+    fn lines(&self, [first, other]: [f64; 2], theme: &Theme) -> Vec<TextLine> {
+        let whole = self.text_line(theme);
+        let fitted = whole.clone().fit_width(first);
+        if fitted.text.runs == whole.text.runs {
+            return vec![fitted];
+        }
+        let is_below = is_below_values(first, theme);
+        let beside = if is_below { other } else { first };
+        let mut lines: Vec<TextLine> = is_below.then(|| entry_line("", theme)).into_iter().collect();
+        lines.extend(self.family.map(|family| entry_line(family, theme).fit_width(beside)));
+        let width = if self.family.is_some() { other } else { beside };
+        let words = entry_line(self.caption, theme).wrap(width);
+        let words = words.iter().filter(|words| !words.is_empty());
+        lines.extend(words.map(|words| entry_line(words, theme).with_italics(self.symbols).fit_width(width)));
+        lines
     }
 
     /// The page, or the range of pages, of which the first has a label.
@@ -135,8 +152,9 @@ struct ColumnLayout {
 /// A line with its position: `y` is the distance of the baseline from the top of the column.
 struct PlacedLine<'r> {
     row: &'r Row<'r>,
-    /// The text of a line of a heading or note; `None` for entries.
-    text: Option<String>,
+    /// Its text, and how far that is from the left edge of the column.
+    text: TextLine,
+    indent: f64,
     /// Whether it is the first line of its row.
     is_first: bool,
     column: usize,
@@ -181,7 +199,7 @@ pub(super) fn compose_list(
         heading::draw_border(&root, theme);
         let at = heading::draw_title(&root, header.title, theme);
         for (k, line) in header.lines(root.size().x - 2.0 * at.x, theme).into_iter().enumerate() {
-            root.record(line.moved_to(at + Vector::new(0.0, NOTE_LEADING * theme.source_size * k as f64)));
+            root.record(line.moved_to(at + Vector::new(0.0, heading::SOURCE_LEADING * theme.source_size * k as f64)));
         }
         columns.draw_heads(&root, header, theme);
         let leaders = columns.draw_lines(&root, placed, &places, theme);
@@ -195,9 +213,6 @@ pub(super) fn compose_list(
 
 /// The distance of the values of an entry, in ems.
 const GAP: f64 = 1.0;
-
-/// The distance of the lines of a note under a title, in ems.
-const NOTE_LEADING: f64 = 1.35;
 
 impl ListHeader<'_> {
     /// The lines under the title.
@@ -213,12 +228,19 @@ impl ListHeader<'_> {
     }
 }
 
-fn text_line(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> TextLine {
-    theme.text_line(text, at, anchor, size, theme.ink)
+/// Whether the text of entries is below their values, which leave it this width.
+fn is_below_values(width: f64, theme: &Theme) -> bool {
+    /// The least width of the text beside them, in ems.
+    const LEAST: f64 = 12.0;
+    width < LEAST * theme.note_size
+}
+
+fn entry_line(text: &str, theme: &Theme) -> TextLine {
+    theme.text_line(text, Point::origin(), Anchor::Start, theme.note_size, theme.ink)
 }
 
 fn heading_line(text: &str, theme: &Theme) -> TextLine {
-    text_line(text, Point::origin(), Anchor::Start, theme.caption_size, theme)
+    theme.text_line(text, Point::origin(), Anchor::Start, theme.caption_size, theme.ink)
 }
 
 fn note_line(text: &str, theme: &Theme) -> TextLine {
@@ -226,23 +248,22 @@ fn note_line(text: &str, theme: &Theme) -> TextLine {
 }
 
 fn text_width(text: &str, theme: &Theme) -> f64 {
-    text_line(text, Point::origin(), Anchor::Start, theme.note_size, theme).text.width()
+    entry_line(text, theme).text.width()
 }
 
 impl ColumnLayout {
     /// As many columns as the widest entry allows, up to eight.
     fn fit(rows: &[Row], header: &ListHeader, options: &Options, theme: &Theme) -> ColumnLayout {
-        let [top, bottom, _] = heading::margins(theme);
-        let left = theme.border + theme.margin;
-        let lines = header.lines(options.paper.width - 2.0 * left, theme).len().saturating_sub(1);
+        let [_, bottom, left] = heading::margins(theme);
+        let lines = header.lines(options.paper.width - 2.0 * left, theme).len();
         let heads = if header.heads.is_empty() { 0.0 } else { 1.5 * theme.note_size };
-        let top = top + NOTE_LEADING * theme.source_size * lines as f64 + heads;
+        let top = heading::contents_top(header.title, lines, options.paper, theme) + heads;
         let whole = Vector::new(options.paper.width - 2.0 * left, options.paper.height - top - bottom);
         let [mut text, mut curve, mut page] = [0.0f64; 3];
         let mut values: Vec<f64> = header.heads.iter().map(|head| text_width(head, theme)).collect();
         for row in rows {
             if let Row::Entry(entry) = row {
-                text = text.max(entry.text_line(Point::origin(), theme).text.width());
+                text = text.max(entry.text_line(theme).text.width());
                 values.resize(values.len().max(entry.values.len()), 0.0);
                 for (width, value) in values.iter_mut().zip(&entry.values) {
                     *width = width.max(text_width(value, theme));
@@ -271,32 +292,55 @@ impl ColumnLayout {
         }
     }
 
-    /// Places the rows from column to column; a heading is kept together with the rows after it.
+    /// The widths of the first line of the text of an entry and of those after it, and the distances of both from the left of the column.
+    fn entry_lines(&self, theme: &Theme) -> ([f64; 2], [f64; 2]) {
+        let values: f64 = self.value_widths.iter().sum();
+        let first = self.column_size.x - values - self.curve_width - self.page_width;
+        let indent = GAP * theme.note_size + if is_below_values(first, theme) { 0.0 } else { values };
+        ([first, self.column_size.x - indent], [values, indent])
+    }
+
+    /// Places the rows from column to column; a heading is kept together with the rows after it, and an entry is not divided.
     fn place_rows<'r>(&self, rows: &'r [Row<'r>], theme: &Theme) -> Vec<PlacedLine<'r>> {
         let mut placed: Vec<PlacedLine> = Vec::new();
         let (mut column, mut y) = (0, 0.0);
+        let (widths, [first_indent, indent]) = self.entry_lines(theme);
         for row in rows {
+            let lines: Vec<TextLine> = match row {
+                Row::Heading { text, page } => {
+                    let width = self.heading_width(*page);
+                    let words = heading_line(text, theme).wrap(width);
+                    words.iter().map(|words| heading_line(words, theme).fit_width(width)).collect()
+                }
+                Row::Note(text) => {
+                    let words = note_line(text, theme).wrap(self.column_size.x);
+                    words.iter().map(|words| note_line(words, theme).fit_width(self.column_size.x)).collect()
+                }
+                Row::Entry(entry) => entry.lines(widths, theme),
+            };
             let space_before = if matches!(row, Row::Heading { .. }) && y > 0.0 { self.line_height } else { 0.0 };
-            // A heading with its note and an entry needs about five lines.
-            let least_lines = if matches!(row, Row::Heading { .. }) { 6.0 } else { 1.0 };
+            let least_lines = match row {
+                // A heading with its note and an entry needs about five lines.
+                Row::Heading { .. } => 6.0,
+                Row::Note(_) => 1.0,
+                Row::Entry(_) => lines.len() as f64,
+            };
             if y > 0.0 && y + space_before + least_lines * self.line_height > self.column_size.y {
                 (column, y) = (column + 1, 0.0);
             } else {
                 y += space_before;
             }
-            let texts = match row {
-                Row::Heading { text, page } => {
-                    heading_line(text, theme).wrap(self.heading_width(*page)).into_iter().map(Some).collect()
-                }
-                Row::Note(text) => note_line(text, theme).wrap(self.column_size.x).into_iter().map(Some).collect(),
-                Row::Entry(_) => vec![None],
-            };
-            for (k, text) in texts.into_iter().enumerate() {
+            for (k, text) in lines.into_iter().enumerate() {
                 if y > 0.0 && y + self.line_height > self.column_size.y {
                     (column, y) = (column + 1, 0.0);
                 }
                 y += self.line_height;
-                placed.push(PlacedLine { row, text, is_first: k == 0, column, y });
+                let indent = match (row, k) {
+                    (Row::Entry(_), 0) => first_indent,
+                    (Row::Entry(_), _) => indent,
+                    _ => 0.0,
+                };
+                placed.push(PlacedLine { row, text, indent, is_first: k == 0, column, y });
             }
         }
         placed
@@ -344,39 +388,43 @@ impl ColumnLayout {
         let mut leaders = Vec::new();
         for line in placed {
             let at = self.line_start(line);
-            let end = at + Vector::new(self.column_size.x, 0.0);
-            let text = line.text.as_deref().unwrap_or_default();
-            let at_start = |line: TextLine| TextLine { text: Text { position: at, ..line.text } };
-            match line.row {
-                Row::Heading { page, .. } => {
-                    root.record(at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
-                    if let Some(page) = page.filter(|_| line.is_first) {
-                        root.record(text_line(&places.label(page), end, Anchor::End, theme.note_size, theme));
-                    }
-                }
-                Row::Note(_) => root.record(at_start(note_line(text, theme)).fit_width(self.column_size.x)),
-                Row::Entry(entry) => {
-                    let page = entry.page_label(places.label(entry.page));
-                    leaders.extend(self.draw_entry(root, entry, &page, at, theme));
-                }
+            let text = line.text.clone().moved_to(at + Vector::new(line.indent, 0.0));
+            let text_end = text.text.position.x + text.text.width();
+            if let (Row::Entry(entry), true) = (line.row, line.is_first) {
+                let page = entry.page_label(places.label(entry.page));
+                self.draw_values(root, entry, at, theme);
+                root.record(text);
+                leaders.extend(self.draw_page(root, entry, &page, (text_end, at), theme));
+                continue;
+            }
+            root.record(text);
+            if let (Row::Heading { page: Some(page), .. }, true) = (line.row, line.is_first) {
+                let end = at + Vector::new(self.column_size.x, 0.0);
+                let label = places.label(*page);
+                root.record(theme.text_line(&label, end, Anchor::End, theme.note_size, theme.ink));
             }
         }
         let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
         vec![Item::Path(Path { polylines: leaders, stroke, fill: None })]
     }
 
-    /// Draws an entry; the result is the dots of its leader.
-    fn draw_entry(&self, root: &impl Area, entry: &Entry, page: &str, at: Point, theme: &Theme) -> Vec<Polyline> {
-        let right = at.x + self.column_size.x;
+    /// Draws the values of an entry from the start of its line.
+    fn draw_values(&self, root: &impl Area, entry: &Entry, at: Point, theme: &Theme) {
         for (value, x) in entry.values.iter().zip(self.value_ends(at.x, theme)) {
-            root.record(text_line(value, Point::new(x, at.y), Anchor::End, theme.note_size, theme));
+            root.record(theme.text_line(value, Point::new(x, at.y), Anchor::End, theme.note_size, theme.ink));
         }
-        let values: f64 = self.value_widths.iter().sum();
-        let line = entry
-            .text_line(at + Vector::new(values, 0.0), theme)
-            .fit_width(self.column_size.x - self.page_width - values - self.curve_width);
-        let from = at.x + values + line.text.width();
-        root.record(line);
+    }
+
+    /// Draws the curve and the page of an entry, whose line starts at a point and has its text up to x; the result is the dots of its leader.
+    fn draw_page(
+        &self,
+        root: &impl Area,
+        entry: &Entry,
+        page: &str,
+        (text_end, at): (f64, Point),
+        theme: &Theme,
+    ) -> Vec<Polyline> {
+        let right = at.x + self.column_size.x;
         let numbers = [(page, right, theme.ink), (entry.curve.as_str(), right - self.page_width, theme.grey)];
         let mut to = right;
         for (text, x, ink) in numbers.into_iter().filter(|(text, ..)| !text.is_empty()) {
@@ -384,7 +432,7 @@ impl ColumnLayout {
             to = number.text.start().x;
             root.record(number);
         }
-        leader_dots(from, to, at.y, theme)
+        leader_dots(text_end, to, at.y, theme)
     }
 
     /// The link over a line, if it leads to a page of its volume.
@@ -396,8 +444,8 @@ impl ColumnLayout {
         };
         let corner = self.line_start(placed) - Vector::new(0.0, 0.75 * self.line_height);
         let text = match placed.row {
-            Row::Entry(entry) => entry.caption,
-            _ => placed.text.as_deref().unwrap_or_default(),
+            Row::Entry(entry) => entry.caption.to_owned(),
+            _ => placed.text.text.words(),
         };
         Some(PageLink {
             corner,

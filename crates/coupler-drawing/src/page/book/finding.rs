@@ -30,7 +30,7 @@ const INSET: f64 = 0.25;
 /// The most columns and rows of a chart whose cells have so many pages with so many curves, and captions or not.
 pub fn max_chart_grid([pages, curves]: [usize; 2], has_captions: bool, options: &Options) -> [usize; 2] {
     let theme = &options.theme.for_paper(options.paper);
-    let whole = frame(options, theme).size;
+    let whole = frame(heading::margins(theme)[0], options, theme).size;
     let em = theme.note_size;
     let most = |length: f64, least: f64| (length / least).floor().max(1.0) as usize;
     let [caption_width, caption_height] =
@@ -43,10 +43,9 @@ pub fn max_chart_grid([pages, curves]: [usize; 2], has_captions: bool, options: 
     [most(whole.x, width.max(caption_width) * em), most(whole.y, height * em)]
 }
 
-/// The frame of the cells.
-fn frame(options: &Options, theme: &Theme) -> Rect {
-    let [top, bottom, _] = heading::margins(theme);
-    let left = theme.border + theme.margin;
+/// The frame of the cells, and of the words at its edges, from a y.
+fn frame(top: f64, options: &Options, theme: &Theme) -> Rect {
+    let [_, bottom, left] = heading::margins(theme);
     let corner = Point::new(left + 2.4 * theme.note_size, top + 2.2 * theme.note_size);
     let end = Point::new(options.paper.width - left, options.paper.height - bottom);
     Rect { corner, size: (end - corner).sup(&Vector::repeat(8.0 * theme.note_size)) }
@@ -65,9 +64,14 @@ pub(super) fn compose(
     heading::draw_border(&root, theme);
     let title = if chart.title.is_empty() { TITLE.to_owned() } else { format!("{TITLE}: {}", chart.title) };
     let at = heading::draw_title(&root, &title, theme);
-    let note = theme.text_line(&chart.note, at, Anchor::Start, theme.source_size, theme.grey);
-    root.record(note.with_italics(&chart.symbols).fit_width(root.size().x - 2.0 * at.x));
-    let whole = frame(options, theme);
+    let width = root.size().x - 2.0 * at.x;
+    let note_line = |text: &str| theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey);
+    let lines = note_line(&chart.note).wrap_at_separators(width);
+    for (k, line) in lines.iter().enumerate() {
+        let below = Vector::new(0.0, heading::SOURCE_LEADING * theme.source_size * k as f64);
+        root.record(note_line(line).with_italics(&chart.symbols).fit_width(width).moved_to(at + below));
+    }
+    let whole = frame(heading::contents_top(&title, lines.len(), options.paper, theme), options, theme);
     let column_count = chart.cells.iter().map(|cell| cell.place[1] + 1).max().unwrap_or(1).max(chart.columns.len());
     let row_count = chart.cells.iter().map(|cell| cell.place[0] + 1).max().unwrap_or(1).max(chart.rows.len());
     let step = Vector::new(whole.size.x / column_count as f64, whole.size.y / row_count as f64);

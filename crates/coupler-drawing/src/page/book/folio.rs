@@ -41,6 +41,9 @@ impl Tab {
     }
 }
 
+/// The least distance of text from the edge of the paper, in millimetres: it is not cut off where a trimmed edge is a little off.
+const SAFE: f64 = 2.0;
+
 /// Draws the number of a page below the border, at its outer corner. The first page of a file is a right-hand page.
 pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, options: &Options) {
     let theme = options.theme.for_paper(options.paper);
@@ -51,7 +54,7 @@ pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, optio
         true => (page.x - theme.border, Anchor::End),
         false => (theme.border, Anchor::Start),
     };
-    let at = Point::new(x, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
+    let at = Point::new(x, page.y - (0.5 * theme.border - 0.35 * theme.source_size).max(SAFE));
     root.grouped(Group::of_class(FOLIO), || {
         root.record(theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
     });
@@ -87,6 +90,8 @@ pub(super) fn draw_tabs(
     if tabs.len() < 2 {
         return;
     }
+    /// The height of the tallest letters, in ems.
+    const ASCENT: f64 = 0.76;
     let root = area::whole_page(scene);
     let paper = root.size();
     let height = (paper.y - 2.0 * theme.border) / tabs.len() as f64;
@@ -112,9 +117,12 @@ pub(super) fn draw_tabs(
             links.push(PageLink { corner, size, target, title, kind: LinkKind::Mark });
         }
         let ink = if is_current { theme.paper } else { theme.grey };
-        // The text reads from the outer edge, downwards on a right-hand page and upwards on the other.
-        let (turns, shift) = if is_right { (1, -0.35) } else { (3, 0.35) };
-        let at = Point::new(left + 0.5 * width + shift * size, top + 0.5 * height);
+        // The text reads from the outer edge, downwards on a right-hand page and upwards on the other: the tops of its letters are nearest
+        // to the edge.
+        let (turns, outwards) = if is_right { (1, 1.0) } else { (3, -1.0) };
+        let outer = if is_right { paper.x } else { 0.0 };
+        let baseline = (0.5 * width + 0.35 * size).max(SAFE + ASCENT * size);
+        let at = Point::new(outer - outwards * baseline, top + 0.5 * height);
         let lines = tab.labels().into_iter().map(|label| theme.text_line(&label, at, Anchor::Middle, size, ink));
         // What does not fit is left out: the mark is there without it.
         let Some(mut line) = lines.into_iter().find(|line| line.text.width() <= 0.94 * height) else { continue };

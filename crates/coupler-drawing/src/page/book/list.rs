@@ -40,9 +40,9 @@ impl Grid {
     fn new(list: &CurveList, atlas: &Atlas, options: &Options, theme: &Theme) -> Grid {
         let left = theme.border + theme.margin;
         let width = options.paper.width - 2.0 * left;
-        let [top, bottom, _] = heading::margins(theme);
+        let [_, bottom, _] = heading::margins(theme);
         let lines = note_lines(list, width, theme).len();
-        let top = top + 1.35 * theme.source_size * lines.saturating_sub(1) as f64 + 0.5 * theme.source_size;
+        let top = heading::contents_top(&list.title, lines, options.paper, theme) + 0.5 * theme.source_size;
         let whole = Vector::new(width, options.paper.height - top - bottom);
         let count = |length: f64, least: f64| ((length / least).floor().max(1.0) as usize).min(MOST_ROWS_COLUMNS);
         let em = theme.note_size;
@@ -85,7 +85,7 @@ pub(super) fn compose(
         let mut at = heading::draw_title(&root, &list.title, theme);
         for line in note_lines(list, root.size().x - 2.0 * at.x, theme) {
             root.record(line.moved_to(at));
-            at.y += 1.35 * theme.source_size;
+            at.y += heading::SOURCE_LEADING * theme.source_size;
         }
         let mut links = Vec::new();
         for (place, entry) in entries.iter().enumerate() {

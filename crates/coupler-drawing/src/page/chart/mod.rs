@@ -26,11 +26,11 @@ use figure::{ChartFigure, LineFeatures};
 pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
-    draw_charts(&mut scene, page, &theme);
+    draw_charts(&mut scene, page, options, &theme);
     scene
 }
 
-fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
+fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &Theme) {
     let [columns, rows] = page.layout.grid();
     let top = page.heading.draw(&area::whole_page(scene), theme);
     let [_, margin, _] = margins(theme);
@@ -42,13 +42,30 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
         |bottom: f64| Rect { corner: Point::new(side, top), size: Vector::new(size.x - 2.0 * side, bottom - top) };
     // What the lines have is known after they are drawn.
     let all_features = LineFeatures { has_marks: page.chart.point_source == PointSource::Curves, has_gaps: true };
-    let foot = |features| symbols::at_foot(size, &page.heading, &page_symbols(page, features, theme), theme);
-    let mut contents = above(size.y - bottom);
-    let mut charts = contents;
-    if let Some((rect, beside)) = page.key.and_then(|_| key_rect(above(foot(all_features).1), page, theme)) {
-        contents = above(foot(all_features).1);
+    let key = page.key.and_then(|(key, panel)| Some((key, Figure::from_panel(panel)?)));
+    let foot = |features, note: Option<&str>| {
+        let mut symbols =
+            key.as_ref().map_or(Vec::new(), |(_, figure)| page_symbols(figure, features, note.is_none(), theme));
+        symbols.extend(note.map(|note| Symbol { mark: Mark::Letter("…"), meaning: note.to_owned() }));
+        symbols::at_foot(size, &page.heading, &symbols, theme)
+    };
+    let mut charts = above(size.y - bottom);
+    let mut note = None;
+    if let Some((key, figure)) = &key {
+        let contents = above(foot(all_features, None).1);
+        let grid = chart_grid::beside_key(page.layout.grid());
+        let (beside, rect) = key_drawing::divide(contents, grid, Some(key), theme);
         charts = beside;
-        draw_key(&area::whole_page(scene), rect, page, theme);
+        match rect {
+            Some(rect) => {
+                let rect = rect.inset(0.5 * theme.margin);
+                key_drawing::draw(&area::whole_page(scene), rect, key, &[figure], theme);
+            }
+            None => {
+                note = Some(key_drawing::left_out_note(contents.size, grid, key, options));
+                charts = above(foot(all_features, note.as_deref()).1);
+            }
+        }
     }
     let far = charts.corner + charts.size;
     let margins = [charts.corner.y, size.y - far.y, charts.corner.x, size.x - far.x];
@@ -74,20 +91,20 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
         let description = format!("Chart: {title}");
         scene.group_items(first_item, Group { id, class: "chart", title, description, data, ..Group::default() });
     }
-    if charts.size != contents.size {
-        for (at, line) in foot(features).0 {
-            symbols::draw(&area::whole_page(scene), &line, at, theme);
-        }
+    for (at, line) in foot(features, note.as_deref()).0 {
+        symbols::draw(&area::whole_page(scene), &line, at, theme);
     }
 }
 
-/// The symbols of the key, and of the lines of the charts.
-fn page_symbols(page: &ChartPage, features: LineFeatures, theme: &Theme) -> Vec<Symbol> {
-    let figure = page.key.and_then(|(_, panel)| Some((panel, Figure::from_panel(panel)?)));
-    let Some((panel, figure)) = figure else { return Vec::new() };
+/// The symbols of the key with a figure, if it is drawn, and of the lines of the charts.
+fn page_symbols(figure: &Figure, features: LineFeatures, has_key: bool, theme: &Theme) -> Vec<Symbol> {
+    let solved = figure.panel.solved_cell;
     let ink = figure.first_ink(theme);
-    let mut symbols = symbols::of_joints(panel.solved_cell, ink);
-    symbols.extend(symbols::of_chains(&panel.solved_cell.linkage, theme));
+    let mut symbols = Vec::new();
+    if has_key {
+        symbols.extend(symbols::of_joints(solved, ink));
+        symbols.extend(symbols::of_chains(&solved.linkage, theme));
+    }
     let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
     if features.has_marks {
         add(Mark::Limit(ink), "mark: a linkage of the family; lines between marks are computed, too");
@@ -96,21 +113,4 @@ fn page_symbols(page: &ChartPage, features: LineFeatures, theme: &Theme) -> Vec<
         add(Mark::Letter("–  –"), "a gap: no value, or a jump");
     }
     symbols
-}
-
-/// The rectangles of the key and of the charts next to it, if there is a linkage and they do not become too small.
-fn key_rect(contents: Rect, page: &ChartPage, theme: &Theme) -> Option<(Rect, Rect)> {
-    let [columns, rows] = page.layout.grid();
-    let (charts, rect) = key_drawing::divide(contents, theme);
-    let [most_columns, most_rows] = chart_grid::max_in(charts.size, theme);
-    let has_figure = page.key.is_some_and(|(_, panel)| Figure::from_panel(panel).is_some());
-    (has_figure && columns <= most_columns && rows <= most_rows).then_some((rect?, charts))
-}
-
-/// Draws the key of the linkages.
-fn draw_key(root: &impl Area, rect: Rect, page: &ChartPage, theme: &Theme) {
-    if let Some((key, panel)) = page.key {
-        let figure = Figure::from_panel(panel);
-        key_drawing::draw(root, rect.inset(0.5 * theme.margin), key, &figure.iter().collect::<Vec<_>>(), theme);
-    }
 }

@@ -66,14 +66,18 @@ impl Scale {
             let padding = fraction * (high - low);
             (low, high) = (low - padding, high + padding);
         }
-        let step = round_step(high - low, options);
-        let first = |x: f64| (step.steps_from_zero(x) - 1e-9).ceil();
-        let last = |x: f64| (step.steps_from_zero(x) + 1e-9).floor();
-        let (mut from, mut to) = (first(low), last(high));
-        if let (RangeEnds::Round, None) = (options.ends, options.range) {
+        let is_rounded = options.ends == RangeEnds::Round && options.range.is_none();
+        // A single number would not say what the scale is.
+        let is_enough = |step: &TickStep| is_rounded || step.last(high) > step.first(low);
+        let target = options.target_ticks;
+        let steps = (target..target + 4).map(|target_ticks| ScaleOptions { target_ticks, ..*options });
+        let mut steps = steps.map(|options| round_step(high - low, &options));
+        let step = steps.find(is_enough).unwrap_or_else(|| round_step(high - low, options));
+        let (mut from, mut to) = (step.first(low), step.last(high));
+        if is_rounded {
             // Zero is shown if it is close to the values.
             let reaches_zero = |near: f64, far: f64| near * far > 0.0 && near.abs() < 0.25 * far.abs();
-            (from, to) = (last(low), first(high));
+            (from, to) = (step.last(low), step.first(high));
             from = if reaches_zero(low, high) && low > 0.0 { 0.0 } else { from };
             to = if reaches_zero(high, low) && high < 0.0 { 0.0 } else { to };
             (low, high) = (low.min(step.multiple(from)), high.max(step.multiple(to)));
@@ -156,6 +160,15 @@ impl TickStep {
         value / decimal(self.units, self.exponent)
     }
 
+    /// The first multiple from a value on, and the last up to it, in steps.
+    fn first(&self, from: f64) -> f64 {
+        (self.steps_from_zero(from) - 1e-9).ceil()
+    }
+
+    fn last(&self, to: f64) -> f64 {
+        (self.steps_from_zero(to) + 1e-9).floor()
+    }
+
     /// A multiple of the step, correctly rounded.
     fn multiple(&self, steps: f64) -> f64 {
         decimal(steps * self.units, self.exponent)
@@ -224,6 +237,8 @@ mod tests {
         let degrees = ScaleOptions { is_in_degrees: true, ends: RangeEnds::Padded(0.0), ..ROUND };
         assert_eq!(labels(&[0.0, 360.0], degrees), ["0", "60", "120", "180", "240", "300", "360"]);
         assert_eq!(labels(&[35.2, 98.0], degrees), ["45", "60", "75", "90"]);
+        let narrow = ScaleOptions { ends: RangeEnds::Padded(0.0), target_ticks: 2, ..ROUND };
+        assert_eq!(labels(&[2.2, 5.8], narrow), ["3", "4", "5"]);
     }
 
     #[test]

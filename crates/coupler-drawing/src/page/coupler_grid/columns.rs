@@ -47,6 +47,13 @@ const COLUMN_GAP: f64 = 0.8;
 const GROUP_GAP: f64 = 1.35;
 
 impl ColumnGroup {
+    /// Keeps the rows with some indices only; widths are those of all.
+    fn keep_rows(&mut self, rows: &[usize]) {
+        for column in &mut self.columns {
+            column.texts = rows.iter().filter_map(|&k| column.texts.get(k).cloned()).collect();
+        }
+    }
+
     /// A group with the columns that have a text in some row; `None` if there is none.
     fn new(
         title: impl Into<String>,
@@ -126,12 +133,18 @@ pub(super) const GROUP_COUNT: usize = 6;
 /// The groups that are more important than the graphs.
 const GROUPS_BEFORE_GRAPHS: usize = 3;
 
-/// The groups of columns for the curves of a page; `None` where no curve has a value.
-pub(super) fn column_groups(
-    page: &CouplerGridPage,
-    shown: &[ShownCurve],
-    theme: &Theme,
-) -> [Option<ColumnGroup>; GROUP_COUNT] {
+/// The groups of columns for the curves of a page, which are those of all pages of its cell; `None` where no curve has a value.
+pub(super) fn column_groups(page: &CouplerGridPage, theme: &Theme) -> [Option<ColumnGroup>; GROUP_COUNT] {
+    let curves = page.panel.solved_cell.curves.iter();
+    let all: Vec<ShownCurve> = curves.map(|curve| ShownCurve { curve, point_index: 0 }).collect();
+    groups_of_curves(page, &all, theme).map(|group| {
+        let mut group = group?;
+        group.keep_rows(&page.curve_indices);
+        Some(group)
+    })
+}
+
+fn groups_of_curves(page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme) -> [Option<ColumnGroup>; GROUP_COUNT] {
     let solved = page.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
     let number = |s: &ShownCurve| match has_circuits {

@@ -60,37 +60,48 @@ fn large_lines(text: &str, width: f64, page: &CouplerGridPage, theme: &Theme) ->
     lines.iter().map(|words| line(words, size).with_italics(symbols).fit_width(width)).collect()
 }
 
+/// The distances of the lines of symbols and of those of the source, in ems.
+const SYMBOL_LEADING: f64 = 1.6;
+const SOURCE_LEADING: f64 = 1.45;
+
+/// The height of the symbols at the foot of a panel of a width, with the space above them.
+pub(super) fn symbols_height(symbols: &[Symbol], width: f64, theme: &Theme) -> f64 {
+    let lines = symbols::lines(symbols, width, theme).len();
+    if lines == 0 { 0.0 } else { SYMBOL_LEADING * theme.note_size * (lines as f64 + 0.5) }
+}
+
 /// Draws the symbols of the figure at the foot of a panel, in as many lines as needed; the result is the rest of the panel.
 pub(super) fn draw_symbols(area: &impl Area, panel: Rect, symbols: &[Symbol], theme: &Theme) -> Rect {
     let lines = symbols::lines(symbols, panel.size.x, theme);
-    let step = 1.6 * theme.note_size;
-    let height = step * lines.len().saturating_sub(1) as f64;
-    let first = panel.corner.y + panel.size.y - height;
+    let step = SYMBOL_LEADING * theme.note_size;
+    let first = panel.corner.y + panel.size.y - step * lines.len().saturating_sub(1) as f64;
     for (k, line) in lines.iter().enumerate() {
         symbols::draw(area, line, Point::new(panel.corner.x, first + step * k as f64), theme);
     }
-    let above = if lines.is_empty() { 0.0 } else { height + 1.5 * step };
-    Rect { size: panel.size - Vector::new(0.0, above), ..panel }
+    Rect { size: panel.size - Vector::new(0.0, symbols_height(symbols, panel.size.x, theme)), ..panel }
+}
+
+/// The lines of the source, if there is one.
+fn source_lines(page: &CouplerGridPage, width: f64, theme: &Theme) -> Vec<TextLine> {
+    let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::End, theme.note_size, theme.grey);
+    let words = line(&page.heading.source).wrap_at_separators(width);
+    words.iter().map(|words| line(words).with_italics(page.heading.symbols).fit_width(width)).collect()
+}
+
+/// The height of the source at the foot of a panel of a width, with the space above it.
+pub(super) fn source_height(page: &CouplerGridPage, width: f64, theme: &Theme) -> f64 {
+    let lines = source_lines(page, width, theme).len();
+    if lines == 0 { 0.0 } else { SOURCE_LEADING * theme.note_size * (lines as f64 + 1.6) }
 }
 
 /// Draws the source, if there is one, at the foot of a panel, in as many lines as needed; the result is the rest of the
 /// panel.
 pub(super) fn draw_source(area: &impl Area, panel: Rect, page: &CouplerGridPage, theme: &Theme) -> Rect {
-    let symbols = page.heading.symbols;
-    if page.heading.source.is_empty() {
-        return panel;
+    let lines = source_lines(page, panel.size.x, theme);
+    let step = SOURCE_LEADING * theme.note_size;
+    let first = panel.corner + panel.size - Vector::new(0.0, step * lines.len() as f64);
+    for (k, line) in lines.into_iter().enumerate() {
+        area.record(line.moved_to(first + Vector::new(0.0, step * k as f64)));
     }
-    let lines = theme
-        .text_line(&page.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
-        .wrap_at_separators(panel.size.x);
-    let right = panel.corner.x + panel.size.x;
-    let step = 1.45 * theme.note_size;
-    let height = step * lines.len() as f64;
-    let first = panel.corner.y + panel.size.y - height;
-    for (k, line) in lines.iter().enumerate() {
-        let at = Point::new(right, first + step * k as f64);
-        let line = theme.text_line(line, at, Anchor::End, theme.note_size, theme.grey);
-        area.record(line.with_italics(symbols).fit_width(panel.size.x));
-    }
-    Rect { size: panel.size - Vector::new(0.0, height + 1.6 * step), ..panel }
+    Rect { size: panel.size - Vector::new(0.0, source_height(page, panel.size.x, theme)), ..panel }
 }

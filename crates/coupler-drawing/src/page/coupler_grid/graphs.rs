@@ -141,14 +141,14 @@ impl Graphs {
             let [a, b] = [&pair[0].text, &pair[1].text];
             b.start().x - a.start().x - a.width()
         };
-        // Every second number is left out if they would be close together.
-        let step = if numbers.windows(2).all(|pair| gap(pair) > 0.6 * em) { 1 } else { 2 };
+        // Where they would be close together, some are left out, at equal steps from the first to the last.
         let last = numbers.len().saturating_sub(1);
-        numbers
-            .into_iter()
-            .enumerate()
-            .filter(|(k, _)| (last - k).is_multiple_of(step))
-            .for_each(|(_, text)| area.record(text));
+        let are_apart = |step: &usize| {
+            let kept: Vec<TextLine> = numbers.iter().step_by(*step).cloned().collect();
+            last.is_multiple_of(*step) && kept.windows(2).all(|pair| gap(pair) > 0.6 * em)
+        };
+        let step = (1..=last).find(are_apart).unwrap_or(last.max(1));
+        numbers.into_iter().step_by(step).for_each(|text| area.record(text));
     }
 }
 

@@ -80,7 +80,7 @@ impl<'a> Key<'a> {
         let width =
             |label: &LinkLabel| theme.text_line(&label.text, Point::origin(), Anchor::Start, letter, theme.grey);
         let widest = page.labels.iter().map(|label| width(label).text.width()).fold(letter, f64::max);
-        let space = Vector::new(widest + 0.8 * letter, 1.6 * letter);
+        let space = Vector::new(widest + 0.8 * letter, 1.3 * letter);
         let inner =
             Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
         let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
@@ -203,16 +203,21 @@ impl<'a> Key<'a> {
                     && placed.iter().all(|(_, other)| spot.distance_to_box(other) > self.label_gap())
             };
             let enough = 0.3 * self.letter;
-            let clearest = |parts: &[f64]| {
-                let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter, parts).filter(is_free);
+            let clearest = |parts: &[f64], gap: f64| {
+                let spots = label_boxes(ends, self.centre, half, gap * self.letter, parts).filter(is_free);
                 labels::clearest_box(spots, |spot| obstacles.clearance(spot, enough))
             };
             // Beyond a short line to the point if everywhere next to it the name would touch another line: all lines count as heavy, so
             // that a quarter of the clearance is for the light ones.
             let touches = |(clearance, _): &(f64, LabelBox)| *clearance < 0.35 * enough;
-            let near = clearest(&BESIDE);
-            let far = near.filter(|near| not_beside.is_none() && touches(near)).and_then(|_| clearest(&BEYOND));
-            if let Some((_, spot)) = far.filter(|far| !touches(far)).or(near) {
+            let near = clearest(&BESIDE, GAPS[0]);
+            let is_clear = |spot: &(f64, LabelBox)| !touches(spot);
+            let far = || {
+                let beyond = not_beside.is_none().then(|| clearest(&BEYOND, GAPS[0])).flatten();
+                let away = GAPS[1..].iter().filter_map(|gap| clearest(&BESIDE, *gap));
+                beyond.into_iter().chain(away).find(is_clear)
+            };
+            if let Some((_, spot)) = near.filter(is_clear).or_else(far).or(near) {
                 line.text.position = spot.centre + Vector::new(0.0, half.y);
                 placed.push((line, spot));
             }
@@ -249,6 +254,9 @@ fn nearest_point<'a>(linkage: &Linkage, shown: &'a [ShownCurve<'a>]) -> Option<&
 /// The places of a name beside a line, as parts of its length, the best first; and those beyond its end.
 const BESIDE: [f64; 5] = [0.5, 0.35, 0.65, 0.2, 0.8];
 const BEYOND: [f64; 4] = [1.0, 1.25, 1.5, 1.8];
+
+/// The distances of a name from its line, in ems, the best first.
+const GAPS: [f64; 3] = [0.45, 0.9, 1.4];
 
 /// The candidate positions of a label next to a link, in the order of `parts` of its length: on the side away from
 /// the `centre` of the linkage. The nearest corner or side of the box is at the distance `gap` from the link.

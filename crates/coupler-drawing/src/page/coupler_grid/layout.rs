@@ -16,8 +16,8 @@ const PANEL_WIDTH: f64 = 57.5;
 /// The greatest part of the width that the panel has next to the figure.
 const MAX_PANEL_WIDTH_PART: f64 = 0.455;
 
-/// The part of the height that the panel has below the figure.
-const PANEL_HEIGHT_PART: f64 = 0.46;
+/// The part of the height that the panel has below the figure, at least, and at most where its table needs more.
+const PANEL_HEIGHT_PARTS: [f64; 2] = [0.46, 0.64];
 
 /// The ratio of width to height from which the panel is next to the figure.
 const MIN_SIDE_BY_SIDE: f64 = 1.15;
@@ -26,14 +26,15 @@ const MIN_SIDE_BY_SIDE: f64 = 1.15;
 const GUTTER: f64 = 2.0;
 
 impl PageLayout {
-    /// The division of a frame; `theme` is that of the panel.
-    pub fn new(whole: Rect, theme: &Theme) -> PageLayout {
+    /// The division of a frame; `theme` is that of the panel, which needs a height where it is below the figure.
+    pub fn new(whole: Rect, panel_height: impl Fn(f64) -> f64, theme: &Theme) -> PageLayout {
         let gutter = GUTTER * theme.note_size;
         let split = if is_side_by_side(whole.size) {
             let panel = (PANEL_WIDTH * theme.note_size).min(MAX_PANEL_WIDTH_PART * whole.size.x);
             Vector::new(whole.size.x - panel, 0.0)
         } else {
-            Vector::new(0.0, (1.0 - PANEL_HEIGHT_PART) * whole.size.y)
+            let [least, most] = PANEL_HEIGHT_PARTS.map(|part| part * whole.size.y);
+            Vector::new(0.0, whole.size.y - panel_height(whole.size.x).clamp(least, most))
         };
         let is_beside = split.x > 0.0;
         let figure_size = if is_beside {
@@ -71,7 +72,7 @@ pub(super) struct PanelLayout {
 
 /// Heights in ems of a note.
 const KEY_HEIGHTS: [f64; 2] = [8.0, 22.0];
-const ROW_HEIGHTS: [f64; 2] = [1.5, 4.8];
+const ROW_HEIGHTS: [f64; 2] = [1.35, 4.8];
 /// The heads of the table, in two lines.
 pub(super) const HEAD_HEIGHT: f64 = 3.6;
 /// The numbers under the graphs.
@@ -80,6 +81,11 @@ pub(super) const AXIS_HEIGHT: f64 = 1.9;
 pub(super) const STRIP_HEIGHT: f64 = 8.0;
 
 impl PanelLayout {
+    /// The height of a key and a table of some rows, at least.
+    pub fn least_height(row_count: usize, theme: &Theme) -> f64 {
+        (KEY_HEIGHTS[0] + HEAD_HEIGHT + AXIS_HEIGHT + ROW_HEIGHTS[0] * row_count as f64) * theme.note_size
+    }
+
     /// The division of a panel for a table of some rows, with a description next to the key and a foot of these heights, if there is
     /// space.
     pub fn new(panel: Rect, row_count: usize, [description, foot_height]: [f64; 2], theme: &Theme) -> PanelLayout {

@@ -57,10 +57,16 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     let foot = footer::draw(&root, page, theme);
     let edge = theme.border + theme.margin;
     let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, size.y - edge - foot) };
-    let PageLayout { figure, panel } = PageLayout::new(whole, panel_theme);
-    let panel = footer::draw_source(&root, panel, page, panel_theme);
     let solved = page.panel.solved_cell;
     let shown = shown_curves(solved, &page.curve_indices);
+    let panel_height = |width: f64| {
+        let symbols = page_symbols(page, &shown, page.scale.fixed(), options, theme);
+        PanelLayout::least_height(shown.len(), panel_theme)
+            + footer::symbols_height(&symbols, width, panel_theme)
+            + footer::source_height(page, width, panel_theme)
+    };
+    let PageLayout { figure, panel } = PageLayout::new(whole, panel_height, panel_theme);
+    let panel = footer::draw_source(&root, panel, page, panel_theme);
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
             let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
@@ -154,7 +160,7 @@ fn draw_panel(
     theme: &Theme,
 ) {
     let em = theme.note_size;
-    let table = Table::new(page, shown, panel.size.x, theme);
+    let table = Table::new(page, panel.size.x, theme);
     let graphs = table.graph_left().map(|left| (left, Graphs::new(page.panel.solved_cell, shown)));
     let strip_left = graphs.as_ref().filter(|(_, graphs)| graphs.transmission.is_some()).map(|(left, _)| *left);
     let notes_width = strip_left.map_or(panel.size.x, |left| left - (graphs::NUMBERS_WIDTH + 1.0) * em);

@@ -26,8 +26,8 @@ const MIN_GRAPH_WIDTH: f64 = 8.0;
 
 impl Table {
     /// The table of a page that fits a width.
-    pub fn new(page: &CouplerGridPage, shown: &[ShownCurve], width: f64, theme: &Theme) -> Table {
-        let groups = column_groups(page, shown, theme);
+    pub fn new(page: &CouplerGridPage, width: f64, theme: &Theme) -> Table {
+        let groups = column_groups(page, theme);
         let em = theme.note_size;
         let (groups, graph_left) = fitting_columns(groups, SWATCH_LENGTH * em, width, MIN_GRAPH_WIDTH * em, theme);
         Table { groups, graph_left }

@@ -88,13 +88,15 @@ impl Default for Theme {
 
 impl Theme {
     /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
-    /// not become too fine to print, and no text is smaller than [`MIN_TEXT_SIZE`].
+    /// not become too fine to print, no text is smaller than [`MIN_TEXT_SIZE`], and the border is where printers print.
     pub fn for_paper(&self, paper: Paper) -> Theme {
+        /// The least distance of the border from the edge: so that what is outside it, such as the thumb index of a book, is not cut off.
+        const MIN_BORDER: f64 = 5.0;
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
         let text = |size: f64| (size * scale).max(MIN_TEXT_SIZE);
         Theme {
-            border: self.border * scale,
+            border: (self.border * scale).max(MIN_BORDER.min(self.border)),
             margin: self.margin * scale,
             title_size: text(self.title_size),
             source_size: text(self.source_size),
