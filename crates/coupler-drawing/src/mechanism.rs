@@ -6,7 +6,7 @@
 use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::motion::Circuit;
-use coupler_curves::parts::pitch_circles;
+use coupler_curves::parts::{Idler, idlers, pitch_circles};
 
 /// The parts of a linkage on a circuit.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +25,27 @@ pub struct Mechanism {
     pub actuators: Vec<[JointId; 2]>,
     /// The guides of sliders and yokes on the frame.
     pub guides: Vec<Guide>,
-    /// The pitch circles of gears: the joint at the centre and the radius.
-    pub pitch_circles: Vec<(JointId, f64)>,
+    /// The pitch circles of gears, with those of idlers.
+    pub gears: Vec<Gear>,
+}
+
+/// The pitch circle of a gear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gear {
+    /// The joint at its centre, or of an idler the pivots of both gears that it is between.
+    pub pivots: [JointId; 2],
+    /// How far the centre is from the first pivot towards the second.
+    pub distance: f64,
+    /// The radius.
+    pub radius: f64,
+}
+
+impl Gear {
+    /// The centre in a pose.
+    pub fn centre_in(&self, pose: &[Point]) -> Point {
+        let [from, to] = self.pivots.map(|pivot| pose[pivot]);
+        from + (to - from).try_normalize(0.0).unwrap_or(Vector::zeros()) * self.distance
+    }
 }
 
 /// A sliding block.
@@ -77,10 +96,7 @@ impl Mechanism {
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
             actuators: joints().filter_map(actuator).chain(linkage.driven_distance()).collect(),
             guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
-            pitch_circles: pitch_circles(linkage, circuit)
-                .iter()
-                .map(|circle| (circle.centre, circle.radius))
-                .collect(),
+            gears: gears(linkage, circuit),
         }
     }
 
@@ -97,8 +113,9 @@ impl Mechanism {
 
     /// The bounds of everything that is drawn of the linkage in a pose.
     pub fn bounds(&self, pose: &[Point]) -> Bounds {
-        let gears = self.pitch_circles.iter().flat_map(|&(centre, radius)| {
-            [pose[centre] - Vector::repeat(radius), pose[centre] + Vector::repeat(radius)]
+        let gears = self.gears.iter().flat_map(|gear| {
+            let (centre, radius) = (gear.centre_in(pose), Vector::repeat(gear.radius));
+            [centre - radius, centre + radius]
         });
         let joints = self.links.iter().flat_map(|outline| &outline.joints).chain(&self.pivots);
         let joints = joints.map(|&joint| pose[joint]);
@@ -114,6 +131,14 @@ impl Slot {
         let unit = (pose[to] - pose[from]).normalize();
         self.ends.map(|end| pose[self.foot] + unit * end.x + left_normal(unit) * end.y)
     }
+}
+
+/// The gears and the idlers between them.
+fn gears(linkage: &Linkage, circuit: &Circuit) -> Vec<Gear> {
+    let gears = pitch_circles(linkage, circuit).into_iter();
+    let gears = gears.map(|circle| Gear { pivots: [circle.centre; 2], distance: 0.0, radius: circle.radius });
+    let idlers = idlers(linkage, circuit).into_iter();
+    gears.chain(idlers.map(|Idler { pivots, distance, radius, .. }| Gear { pivots, distance, radius })).collect()
 }
 
 /// The guide on the frame of a slider or a yoke.
@@ -148,4 +173,30 @@ fn find_slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Slo
     let by = |a: &&Vector, b: &&Vector| longest.dot(a).total_cmp(&longest.dot(b));
     let ends = [*arms.iter().min_by(by)?, *arms.iter().max_by(by)?];
     Some(Slot { foot: joint, through, base: [from, to], ends })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coupler_curves::catalogue;
+    use coupler_curves::family::{Family, Sampling};
+    use coupler_curves::solve::Solver;
+
+    #[test]
+    fn an_idler_meets_both_gears_that_turn_the_same_way() {
+        let gears = |turns: f64| {
+            let template = catalogue::find("geared-five-bar").unwrap();
+            let family = Family::single_cell(template, &[("n".to_owned(), turns)], Sampling::Samples(12)).unwrap();
+            let solved = Solver::new(&family).solve(0).unwrap();
+            let (linkage, circuit) = (&solved.linkage, solved.circuit(&solved.curves[0]));
+            let start: Vec<Point> = linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0)).collect();
+            let gears = Mechanism::new(linkage, circuit).gears;
+            gears.iter().map(|gear| (gear.centre_in(&start), gear.radius)).collect::<Vec<_>>()
+        };
+        assert_eq!(gears(-1.0).len(), 2);
+        let [own, first, idler] = gears(1.0)[..] else { panic!() };
+        for gear in [own, first] {
+            assert!(((gear.0 - idler.0).norm() - gear.1 - idler.1).abs() < 1e-12);
+        }
+    }
 }

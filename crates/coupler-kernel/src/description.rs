@@ -6,7 +6,7 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, LinkId, Linkage, is_plate};
 use coupler_curves::motion::{Pass, UnsampledCircuit};
 use coupler_curves::solve::MovablePoint;
-use coupler_drawing::mechanism::{Block, Guide, Mechanism, Slot};
+use coupler_drawing::mechanism::{Block, Gear, Guide, Mechanism, Slot};
 
 use crate::family::OpenFamily;
 use crate::overlays::cognates;
@@ -118,7 +118,7 @@ fn crank_json(study: &Study, numbers: &mut Numbers) -> Option<Value> {
 
 fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
     let Study { linkage, circuit, mechanism, joint, .. } = study;
-    let Mechanism { links, pivots, blocks, slots, actuators, guides, pitch_circles, helpers: _ } = mechanism;
+    let Mechanism { links, pivots, blocks, slots, actuators, guides, gears, helpers: _ } = mechanism;
     let indices = |joints: &[JointId]| json!(joints.iter().map(|joint| joint.index()).collect::<Vec<_>>());
     let is_body = |joints: &[JointId], link| is_plate(&positions_on_link(linkage, joints, link));
     let outlines = |plates: bool| -> Vec<Value> {
@@ -140,9 +140,10 @@ fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
             "far": [ends[1].x, ends[1].y],
         })
     };
-    let wheel = |(joint, radius): &(JointId, f64)| {
-        let centre = circuit.positions.point(*joint, 0);
-        [centre.x, centre.y, *radius]
+    let start: Vec<Point> = linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0)).collect();
+    let wheel = |gear: &Gear| {
+        let centre = gear.centre_in(&start);
+        [centre.x, centre.y, gear.radius]
     };
     json!({
         "bars": outlines(false),
@@ -156,7 +157,7 @@ fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
         "slots": slots.iter().map(slot).collect::<Vec<_>>(),
         "actuators": actuators.iter().map(|ends| indices(ends)).collect::<Vec<_>>(),
         "guides": guides.iter().map(|Guide { ends: [a, b], .. }| [a.x, a.y, b.x, b.y]).collect::<Vec<_>>(),
-        "wheels": pitch_circles.iter().map(wheel).collect::<Vec<_>>(),
+        "wheels": gears.iter().map(wheel).collect::<Vec<_>>(),
     })
 }
 

@@ -141,15 +141,16 @@ fn is_same_circuit(circuit: &UnsampledCircuit, other: &UnsampledCircuit) -> bool
 impl Study {
     /// The bounds of the linkage over the circuit, and of the paths of further joints.
     pub fn bounds(&self, further: &[JointId]) -> Bounds {
-        let Mechanism { slots, guides, pitch_circles, pivots, links, .. } = &self.mechanism;
+        let Mechanism { slots, guides, gears, pivots, links, .. } = &self.mechanism;
         let mut joints: Vec<JointId> = links.iter().flat_map(|link| &link.joints).chain(pivots).copied().collect();
         joints.extend(slots.iter().map(|slot| slot.through).chain(further.iter().copied()));
         joints.sort_unstable();
         joints.dedup();
         let paths = joints.iter().flat_map(|&joint| self.circuit.points(joint));
-        let gears = pitch_circles.iter().flat_map(|&(joint, radius)| {
-            let centre = self.circuit.positions.point(joint, 0);
-            [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]
+        let start: Vec<Point> = self.linkage.joint_ids().map(|joint| self.circuit.positions.point(joint, 0)).collect();
+        let gears = gears.iter().flat_map(|gear| {
+            let (centre, radius) = (gear.centre_in(&start), Vector::repeat(gear.radius));
+            [centre - radius, centre + radius]
         });
         Bounds::from_points(paths.chain(guides.iter().flat_map(|guide| guide.ends)).chain(gears).filter(is_finite))
     }

@@ -12,11 +12,10 @@ impl Linkage {
             JointKind::Rigid { .. } | JointKind::Aligned { .. } | JointKind::Parallelogram { .. } => false,
             _ => return false,
         };
-        let link_count = self.links.iter().filter(|link| link.position(joint).is_some()).count();
         let is_shown = self.traced.contains(&joint)
             || self.chains.iter().flatten().any(|shown| *shown == joint)
             || self.load.is_some_and(|load| load.joint == joint);
-        if link_count > 1 || is_shown {
+        if self.link_count(joint) > 1 || is_shown {
             return false;
         }
         let mut places_another = false;
@@ -36,6 +35,18 @@ impl Linkage {
             }
         }
         places_another
+    }
+
+    /// Whether a joint that is drawn is a pin: the foot of a slot's line, a yoke and a rack are none, unless another link is on them.
+    pub fn is_pin(&self, joint: JointId) -> bool {
+        let is_place =
+            matches!(self.joints[joint].kind, JointKind::Slot { .. } | JointKind::Yoke { .. } | JointKind::Rack { .. });
+        !is_place || self.link_count(joint) > 1
+    }
+
+    /// The number of links that a joint is on.
+    fn link_count(&self, joint: JointId) -> usize {
+        self.links.iter().filter(|link| link.position(joint).is_some()).count()
     }
 
     /// What a joint is for another one that is placed in this way.

@@ -104,7 +104,7 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: JointId) -> V
             None => joints[0].0 == joint,
         };
         let has_hole = |joint: JointId| {
-            let is_shown = is_on_part(joint) && !helpers.contains(&joint) && is_pin(linkage, joint);
+            let is_shown = is_on_part(joint) && !helpers.contains(&joint) && linkage.is_pin(joint);
             is_shown || (joint == traced && !is_ground)
         };
         let mut body = Body { is_ground, joints: joints.clone(), anchor, holes: Vec::new(), slots: Vec::new(), block };
@@ -131,13 +131,6 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: JointId) -> V
     }
     bodies.sort_by_key(|body| (!body.is_ground, body.block.is_some()));
     bodies
-}
-
-/// Whether a joint is a pin: the foot of a slot's line, a yoke and a rack are none, unless another link is on them.
-fn is_pin(linkage: &Linkage, joint: JointId) -> bool {
-    let is_place =
-        matches!(linkage.joints[joint].kind, JointKind::Slot { .. } | JointKind::Yoke { .. } | JointKind::Rack { .. });
-    !is_place || linkage.links.iter().filter(|link| link.position(joint).is_some()).count() > 1
 }
 
 /// The block that a link with these joints is: its first joint slides, and all others are points that keep the direction of its line.

@@ -5,27 +5,27 @@ use super::body::Body;
 use super::hole::Hole;
 use super::outline::Outline;
 use super::part::Part;
-use super::pitch_circle::PitchCircle;
+use super::pitch_circle::{Idler, PitchCircle};
 use super::sizes::Sizes;
 use crate::geometry::{Point, Vector};
 use crate::linkage::{JointId, JointKind, Linkage};
 
 /// The gears of bodies as parts, with a hole at the centre and one of the crank that a gear turns with: its pin, or where that is outside, a pin that holds
 /// both together. An idler has its hole in the body with both pivots. Gears whose pivots are on no common body do not mesh, and are none.
-pub(super) fn add(bodies: &mut [Body], linkage: &Linkage, circles: &[PitchCircle], sizes: Sizes) -> Vec<Part> {
+pub(super) fn add(
+    bodies: &mut [Body],
+    linkage: &Linkage,
+    (circles, idlers): (&[PitchCircle], &[Idler]),
+    sizes: Sizes,
+) -> Vec<Part> {
     let mut parts = Vec::new();
-    for (k, circle) in circles.iter().enumerate() {
-        let pair = |joint: JointId| match linkage.joints[joint].kind {
-            JointKind::Gear { pivot, ratio: [turns, _], .. } => Some((pivot, turns)),
-            _ => None,
-        };
+    for circle in circles {
         let crank_pivot = linkage.crank().map(|[pivot, _]| pivot);
-        if let (Some((pivot, turns)), Some(first)) = (pair(circle.pin), crank_pivot) {
-            let is_on = |body: &Body| body.position(pivot).is_some() && body.position(first).is_some();
+        if let (JointKind::Gear { pivot, .. }, Some(first)) = (&linkage.joints[circle.pin].kind, crank_pivot) {
+            let is_on = |body: &Body| body.position(*pivot).is_some() && body.position(first).is_some();
             let Some(carrier) = bodies.iter_mut().find(|body| is_on(body)) else { return Vec::new() };
-            // The gear of the first crank is the next circle.
-            let other = circles.get(k + 1).filter(|_| turns > 0);
-            parts.extend(other.and_then(|other| add_idler(carrier, [(first, other.radius), (pivot, circle.radius)])));
+            let idler = idlers.iter().find(|idler| idler.pin == circle.pin);
+            parts.extend(idler.and_then(|idler| add_idler(carrier, idler)));
         }
         parts.extend(gear(bodies, linkage, circle, sizes));
     }
@@ -61,19 +61,16 @@ fn gear(bodies: &mut [Body], linkage: &Linkage, circle: &PitchCircle, sizes: Siz
     })
 }
 
-/// The idler in the gap between two gears, with its hole on the body that has the pivots of both.
-fn add_idler(carrier: &mut Body, gears: [(JointId, f64); 2]) -> Option<Part> {
-    let [from, to] = gears.map(|(pivot, _)| carrier.position(pivot));
-    let [own, other] = gears.map(|(_, radius)| radius);
-    let between = to? - from?;
-    let radius = (between.norm() - own - other) / 2.0;
-    let centre = from? + between.try_normalize(0.0)? * (own + radius);
+/// An idler, with its hole on the body that has the pivots of both gears.
+fn add_idler(carrier: &mut Body, idler: &Idler) -> Option<Part> {
+    let [from, to] = idler.pivots.map(|pivot| carrier.position(pivot));
+    let centre = from? + (to? - from?).try_normalize(0.0)? * idler.distance;
     carrier.add_hole("idler", centre);
     Some(Part {
         name: "gear idler".to_owned(),
         holes: vec![Hole { name: "idler".to_owned(), centre: Point::origin() }],
         slots: Vec::new(),
-        outline: Outline::Circle { centre: Point::origin(), radius },
+        outline: Outline::Circle { centre: Point::origin(), radius: idler.radius },
         anchor: carrier.anchor.in_frame(&Frame { origin: centre, axis: Vector::x() }),
     })
 }

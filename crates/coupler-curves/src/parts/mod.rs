@@ -21,7 +21,7 @@ pub use error::PartsError;
 pub use hole::{Hole, Slot};
 pub use outline::{Outline, Vertex};
 pub use part::Part;
-pub use pitch_circle::pitch_circles;
+pub use pitch_circle::{Idler, idlers, pitch_circles};
 pub use sizes::{GivenSizes, Sizes};
 
 use crate::geometry::{Bounds, Point};
@@ -50,7 +50,7 @@ impl Parts {
         let mut bodies = body::bodies(linkage, circuit, traced);
         let circles = pitch_circles(linkage, circuit);
         let sizes = sizes::resolve(&bodies, &circles, given)?;
-        let gears = gears::add(&mut bodies, linkage, &circles, sizes);
+        let gears = gears::add(&mut bodies, linkage, (&circles, &idlers(linkage, circuit)), sizes);
         slides::add(&mut bodies, (linkage, circuit), sizes)?;
         let bodies = bodies.iter().filter(|body| body.is_part());
         let mut parts: Vec<Part> = bodies.map(|body| Part::from_body(body, linkage, sizes)).collect();

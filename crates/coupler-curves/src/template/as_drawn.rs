@@ -38,6 +38,14 @@ impl Template {
         format!("from the direction of {start}, {turning}")
     }
 
+    /// A direction in degrees on paper; as coordinates, before a rotation that is stated apart.
+    pub(super) fn direction_as_drawn(&self, deg: f64) -> f64 {
+        let rotation = self.orientation.rotation_deg() - self.rotation_before_drawing();
+        let deg = self.orientation.handedness() * deg + rotation;
+        // As written where that is at most half a turn.
+        if deg.abs() <= 180.0 { deg } else { deg - 360.0 * (deg / 360.0).round() }
+    }
+
     /// The rotation that its coordinates in words are before, in degrees; 0 if they are as drawn.
     pub fn rotation_before_drawing(&self) -> f64 {
         let is_stated = self.seen_from.is_none() && self.quarter_turns().is_some();

@@ -23,7 +23,7 @@ impl Template {
 
     /// What is known of a joint, with the links to joints before it that close loops, and the lines that it slides on.
     fn with_closures(&self, joint: usize, known: MathText) -> MathText {
-        let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
+        let between = |joints: [usize; 2]| self.names_in_a_row(&joints);
         let closing = self.closures.iter().filter_map(|closure| match closure {
             ClosureTemplate::Bar { joints: [a, b], length } if *a.max(b) == joint => {
                 Some(drawn_length(&between([*a.min(b), joint]), length))
@@ -48,7 +48,7 @@ impl Template {
 
     fn construction_without_drawing(&self, joint: usize, placed: &JointTemplate) -> MathText {
         let name = |k: usize| displayed_name(&self.joints[k].name);
-        let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
+        let between = |joints: [usize; 2]| self.names_in_a_row(&joints);
         let is_drawn = self.joints.iter().any(|joint| joint.drawn.is_some());
         let to_left = format!(", to its {}: ", self.side_as_drawn(Side::Left));
         // In a drawing the coordinates tell the side.
@@ -162,9 +162,8 @@ impl Template {
                 }
             }
             JointKindTemplate::Parallelogram { corners } => {
-                let corners = corners.iter().chain([&joint]).map(|&corner| self.joints[corner].name.as_str());
-                let corners: Vec<&str> = corners.collect();
-                MathText::from_words(format!("parallelogram {}", join_names(&corners)))
+                let corners: Vec<usize> = corners.iter().copied().chain([joint]).collect();
+                MathText::from_words(format!("parallelogram {}", self.names_in_a_row(&corners)))
             }
             // The links that close loops at it are stated there, or at the joints after it.
             JointKindTemplate::Grouped { .. } => {
@@ -204,7 +203,7 @@ impl Template {
         self.joints.iter().enumerate().find_map(|(own, joint)| match &joint.kind {
             JointKindTemplate::Slot { base: [pivot, through], offset, .. } if is_base(*pivot, *through) => {
                 let line = if base[0] == *pivot { [own, *through] } else { [*through, own] };
-                (!is_zero(offset)).then(|| join_names(&line.map(|k| self.joints[k].name.as_str())))
+                (!is_zero(offset)).then(|| self.names_in_a_row(&line))
             }
             JointKindTemplate::Slide { line: [p, q], .. }
             | JointKindTemplate::Yoke { line: [p, q], .. }
@@ -213,7 +212,7 @@ impl Template {
                 if base[0] == own && (base[1] == *p || base[1] == *q) =>
             {
                 let line = if base[1] == *q { [*p, *q] } else { [*q, *p] };
-                Some(join_names(&line.map(|k| self.joints[k].name.as_str())))
+                Some(self.names_in_a_row(&line))
             }
             JointKindTemplate::Piston { base: [from, _], offset, .. } if is_base(*from, own) => {
                 (!is_zero(offset)).then(|| format!("the actuator towards {}", name(base[1])))
@@ -224,31 +223,26 @@ impl Template {
 
     /// The link that the joints are defined in, by its joints; in the reported frame it moves.
     pub(super) fn defined_link(&self) -> String {
-        let is_fixed = |joint: &&super::JointTemplate| matches!(joint.kind, JointKindTemplate::Fixed(_));
-        let names: Vec<&str> = self.joints.iter().filter(is_fixed).map(|joint| joint.name.as_str()).collect();
-        join_names(&names)
+        let is_fixed = |joint: &usize| matches!(self.joints[*joint].kind, JointKindTemplate::Fixed(_));
+        self.names_in_a_row(&(0..self.joints.len()).filter(is_fixed).collect::<Vec<_>>())
     }
 
-    /// Whether a moving link is connected to a fixed joint; otherwise it is only a point of reference.
+    /// The names of joints, by their indices, in a row as they are printed: AB, or Knee–Hip.
+    pub fn names_in_a_row(&self, joints: &[usize]) -> String {
+        join_names(&joints.iter().map(|&joint| self.joints[joint].name.as_str()).collect::<Vec<_>>())
+    }
+
+    /// Whether a joint is the foot of a line through a pivot that a drawing has not: it is the pivot.
+    pub fn is_foot_at_pivot(&self, joint: usize) -> bool {
+        let is_further = self.joints[joint].drawn.is_none() && self.joints.iter().any(|other| other.drawn.is_some());
+        matches!(&self.joints[joint].kind, JointKindTemplate::Slot { offset, .. } if is_further && is_zero(offset))
+    }
+
+    /// Whether a fixed joint is a pivot, as of [`Linkage::pivots`](crate::linkage::Linkage::pivots); otherwise it is only a point of reference.
     fn is_pivot(&self, joint: usize) -> bool {
-        self.joints.iter().any(|other| match &other.kind {
-            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => *pivot == joint,
-            JointKindTemplate::Piston { base, .. }
-            | JointKindTemplate::Dyad { base, .. }
-            | JointKindTemplate::Slot { base, .. } => base.contains(&joint),
-            JointKindTemplate::Parallelogram { corners } => corners.contains(&joint),
-            JointKindTemplate::Slide { .. }
-            | JointKindTemplate::Yoke { .. }
-            | JointKindTemplate::DrivenSlider { .. }
-            | JointKindTemplate::Rack { .. }
-            | JointKindTemplate::Point { .. }
-            | JointKindTemplate::Distances { .. }
-            | JointKindTemplate::Grouped { .. }
-            | JointKindTemplate::Fixed(_) => false,
-        }) || self
-            .closures
-            .iter()
-            .any(|closure| matches!(closure, ClosureTemplate::Bar { joints, .. } if joints.contains(&joint)))
+        self.structure().is_ok_and(|linkage| {
+            linkage.find_joint(&self.joints[joint].name).is_some_and(|joint| linkage.pivots().contains(&joint))
+        })
     }
 }
 

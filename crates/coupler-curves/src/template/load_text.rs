@@ -1,9 +1,10 @@
 //! A load as users write it: `100 on C at -90 deg`.
 
-use crate::expression::{self, Dimension, Expression, Quantity, Scope};
+use crate::expression::{self, Dimension, Expression, Quantity, Scope, displayed_name};
 use crate::linkage::Load;
 use crate::problem::suggestion;
 use crate::template::Template;
+use crate::text::format_exactly;
 
 /// How a load is written.
 const EXAMPLE: &str = "\"100 on C at -90 deg\", or \"100 on C\" for a force against the motion of C";
@@ -40,6 +41,16 @@ pub enum LoadTextError {
 }
 
 impl Template {
+    /// Its load as pages state it: "100 on C at −90°", in the direction that it has on paper, or "100 on C, against its motion".
+    pub fn load_in_words(&self) -> Option<String> {
+        let Load { joint, force, direction_deg } = self.load?;
+        let on = format!("{} on {}", format_exactly(force), displayed_name(&self.joints[joint].name));
+        Some(match direction_deg {
+            Some(deg) => format!("{on} at {}°", format_exactly(self.direction_as_drawn(deg))),
+            None => format!("{on}, against its motion"),
+        })
+    }
+
     /// The load on one of its joints that a text states: a force, the joint, and the direction in degrees unless a unit is stated, without
     /// which the force is against the motion of the joint.
     ///
@@ -87,6 +98,7 @@ impl Template {
 #[cfg(test)]
 mod tests {
     use crate::catalogue;
+    use crate::geometry::Orientation;
     use crate::linkage::Load;
 
     #[test]
@@ -115,5 +127,26 @@ mod tests {
         let grid = catalogue::find("hrones-nelson").unwrap();
         let traced = &grid.joints[grid.traced[0]];
         assert_eq!(grid.parse_load(&format!("1 on {}", traced.name)).is_ok(), traced.kind.point_count() == 1);
+    }
+
+    #[test]
+    fn in_words_it_has_the_direction_on_paper() {
+        let words = |text: &str, is_mirrored: bool, deg: f64| {
+            let mut template = (*catalogue::find("slider-crank").unwrap()).clone();
+            template.load = Some(template.parse_load(text).unwrap());
+            template.orientation = Orientation::new(is_mirrored, deg);
+            template.load_in_words().unwrap()
+        };
+        for (text, is_mirrored, deg, expected) in [
+            ("100 on B at -90 deg", false, 0.0, "100 on B at −90°"),
+            ("100 on B at -90 deg", true, 0.0, "100 on B at 90°"),
+            ("100 on B at -90 deg", false, 90.0, "100 on B at 0°"),
+            ("100 on B at 180 deg", false, 90.0, "100 on B at −90°"),
+            // A rotation by no quarter turns is stated apart.
+            ("100 on B at -90 deg", true, 30.0, "100 on B at 90°"),
+            ("0.5 on B", true, 0.0, "0.5 on B, against its motion"),
+        ] {
+            assert_eq!(words(text, is_mirrored, deg), expected);
+        }
     }
 }

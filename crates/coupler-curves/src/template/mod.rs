@@ -169,7 +169,13 @@ impl Template {
     /// What its input is, in words.
     pub fn input_in_words(&self) -> String {
         let driven = self.joints.iter().find_map(|joint| match &joint.kind {
-            JointKindTemplate::Piston { .. } => Some("the actuator's length".to_owned()),
+            JointKindTemplate::Piston { base: [from, _], offset, .. } => Some(match offset.constant_value() {
+                Some(0.0) => "the actuator's length".to_owned(),
+                _ => {
+                    let from = displayed_name(&self.joints[*from].name);
+                    format!("the actuator's length from the foot of the perpendicular from {from} to its line")
+                }
+            }),
             JointKindTemplate::DrivenSlider { line: [from, to], .. } => {
                 let [slider, from, to] =
                     [joint, &self.joints[*from], &self.joints[*to]].map(|joint| displayed_name(&joint.name));

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::typography::{begins_with_value, is_article, is_defined};
+use super::typography::{begins_with_value, is_article, is_defined, typeset};
 use crate::scene::{Anchor, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Stroke, Text, TextRun, Typeface};
 use coupler_curves::expression::{MathPiece, MathText};
 use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
@@ -126,7 +126,7 @@ impl TextLine {
         TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
-    /// A line of mathematical text at a position of the area: symbols in italics, exponents raised.
+    /// A line of mathematical text at a position of the area: symbols in italics, exponents raised, with the characters of typesetting.
     pub fn from_math(
         text: &MathText,
         typeface: Typeface,
@@ -136,7 +136,7 @@ impl TextLine {
         color: Color,
     ) -> TextLine {
         let run = |piece: &MathPiece| TextRun {
-            text: piece.text.clone(),
+            text: typeset(&piece.text),
             face: Face { typeface, is_italic: piece.is_symbol },
             is_raised: piece.is_raised,
         };

@@ -1,9 +1,9 @@
 //! The key of a page: what it says of the linkage, and how each joint is placed.
 
 use super::marks::straight_criterion_text;
-use coupler_curves::expression::{MathText, displayed_name, join_names};
+use coupler_curves::expression::{MathText, displayed_name};
 use coupler_curves::family::{Cell, Family};
-use coupler_curves::linkage::{JointId, Linkage, OutputLink};
+use coupler_curves::linkage::{JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::template::{InputValue, JointKindTemplate, JointTemplate, Template};
 use coupler_curves::text::format_exactly;
 
@@ -19,10 +19,14 @@ pub struct Key {
     pub is_numbered: bool,
     /// Those of them that are no pins, but points of moving links.
     pub helpers: Vec<String>,
+    /// Those of the joints that are so far from the linkage that the drawing does not have them.
+    pub beyond: Vec<String>,
     /// The formulas of the note under each panel, if its values follow from the parameters, such as the lengths of cognates.
     pub note: Option<MathText>,
-    /// What drives the linkage, what it drives, and from where it is seen.
+    /// What drives the linkage, what it drives, the load that it moves, and from where it is seen.
     pub remarks: Vec<String>,
+    /// The load alone, if there is one.
+    pub load: Option<String>,
     /// Which straight portions are marked.
     pub straight: String,
 }
@@ -47,25 +51,30 @@ impl Key {
                 .is_some_and(|linkage| linkage.find_joint(&joint.name).is_some_and(|id| linkage.is_helper(id)))
         };
         let joint = |(k, joint): (usize, &JointTemplate)| (displayed_name(&joint.name), template.construction(k));
-        let (helpers, pins): (Vec<_>, Vec<_>) =
-            template.joints.iter().enumerate().partition(|(_, joint)| is_helper(joint));
+        let stated = template.joints.iter().enumerate().filter(|(k, _)| !template.is_foot_at_pivot(*k));
+        let (helpers, pins): (Vec<_>, Vec<_>) = stated.partition(|(_, joint)| is_helper(joint));
         // A fixed point is called one.
         let is_moving = |(_, joint): &&(usize, &JointTemplate)| !matches!(joint.kind, JointKindTemplate::Fixed(_));
         Key {
             dimensions,
             is_numbered: false,
             helpers: helpers.iter().filter(is_moving).map(|(_, joint)| displayed_name(&joint.name)).collect(),
+            beyond: Vec::new(),
             joints: pins.into_iter().chain(helpers).map(joint).collect(),
             note: note_formulas(family),
             remarks: remarks(template, structure.as_ref()),
+            load: template.load_in_words(),
             straight: straight_criterion_text(family.straight, if template.is_driven_by_length() { "" } else { "°" }),
         }
     }
 }
 
 impl Key {
-    /// What the drawing has at a pin: the names of its joints, or their numbers.
+    /// What the drawing has at a pin: the names of its joints that are in the key, or their numbers.
     pub(super) fn pin_label(&self, names: &[String]) -> String {
+        let is_known = |name: &&String| self.joints.iter().any(|(own, _)| own.split(", ").any(|own| own == *name));
+        let known: Vec<String> = names.iter().filter(is_known).cloned().collect();
+        let names = if known.is_empty() { names } else { &known };
         let whole = names.join(", ");
         let number = |name: &String| self.joints.iter().position(|(own, _)| own == name).map(|k| (k + 1).to_string());
         match (self.is_numbered, number(&whole)) {
@@ -103,7 +112,7 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
     let name = |joint: usize| displayed_name(&template.joints[joint].name);
     let crank = template.joints.iter().enumerate().find_map(|(pin, joint)| match joint.kind {
         JointKindTemplate::Crank { pivot, .. } => {
-            let ends = join_names(&[pivot, pin].map(|joint| template.joints[joint].name.as_str()));
+            let ends = template.names_in_a_row(&[pivot, pin]);
             let link = if template.seen_from.is_some() { "driving link" } else { "crank" };
             Some(format!("the angle of the {link} {ends} {}", template.input_as_drawn()))
         }
@@ -117,11 +126,19 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
     let driven_by = format!("input: {driven_by}{range}");
     let output = structure.and_then(|linkage| {
         let name = |joint: JointId| displayed_name(&linkage.joints[joint].name);
+        let sliding = |pivot: JointId, through: JointId| {
+            format!("output: the link from {} that slides through {}", name(pivot), name(through))
+        };
+        let is_at_pivot = |joint: JointId| {
+            let own = |placed: &JointTemplate| placed.name == linkage.joints[joint].name;
+            template.joints.iter().position(own).is_some_and(|own| template.is_foot_at_pivot(own))
+        };
         Some(match linkage.output()? {
-            OutputLink::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
-            OutputLink::Slot { base: [pivot, through], .. } => {
-                format!("output: the link from {} that slides through {}", name(pivot), name(through))
-            }
+            OutputLink::Link([from, to]) => match linkage.joints[to].kind {
+                JointKind::Slot { base: [pivot, through], .. } if is_at_pivot(to) => sliding(pivot, through),
+                _ => format!("output: the link from {} to {}", name(from), name(to)),
+            },
+            OutputLink::Slot { base: [pivot, through], .. } => sliding(pivot, through),
             OutputLink::Slider { joint, .. } => format!("output: the slider {}", name(joint)),
         })
     });
@@ -133,5 +150,6 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
     let laid_out = template.joints.iter().any(|joint| joint.drawn.is_some());
     let laid_out =
         laid_out.then(|| "lengths and sides that are not stated are those of the places laid out".to_owned());
-    [driven_by].into_iter().chain(output).chain(frame).chain(rotation).chain(laid_out).collect()
+    let load = template.load_in_words().map(|load| format!("load: {load}"));
+    [driven_by].into_iter().chain(output).chain(load).chain(frame).chain(rotation).chain(laid_out).collect()
 }

@@ -139,12 +139,13 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
         false => rect.corner + Vector::new(drawing.x + em, 0.0),
     };
     let mut key = key.clone().with_common_pins(&common_pins(figures));
-    let width =
-        |name: &str| theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width();
-    key.is_numbered = key.joints.iter().any(|(name, _)| width(name) > MAX_NAME_PART * drawing.x);
+    key.is_numbered = needs_numbers(&key, drawing.x, theme);
     if let Some((figure, mechanism)) =
         clearest_figure(figures).and_then(|figure| Some((figure, figure.mechanisms.first()?)))
     {
+        let name = |joint: JointId| displayed_name(&mechanism.linkage.joints[joint].name);
+        let [_, far] = helpers(mechanism);
+        key.beyond = far.into_iter().map(name).collect();
         let drawing = Rect { corner: rect.corner, size: drawing };
         let ink = |joint| figure.joint_ink(joint, theme);
         match with_longer_crank(mechanism) {
@@ -170,6 +171,13 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
     draw_lines(area, text, &[], &key, theme);
+}
+
+/// Whether a drawing of a width has the numbers of the joints, as a name is too long for it.
+pub(super) fn needs_numbers(key: &Key, width: f64, theme: &Theme) -> bool {
+    let name_width =
+        |name: &str| theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width();
+    key.joints.iter().any(|(name, _)| name_width(name) > MAX_NAME_PART * width)
 }
 
 /// The linkage with a longer crank, sampled, if its own is so short that its joints hide it.
@@ -250,9 +258,9 @@ impl KeyLines {
                     None
                 }
             };
-            let is_helper = key.helpers.contains(joint);
-            let construction =
-                if is_helper { construction.clone().with_words("; no pin") } else { construction.clone() };
+            let remarks = [(&key.helpers, "; no pin"), (&key.beyond, "; beyond the drawing")];
+            let remarks = remarks.into_iter().filter(|(joints, _)| joints.contains(joint));
+            let construction = remarks.fold(construction.clone(), |text, (_, words)| text.with_words(words));
             for part in construction.wrap(fits) {
                 rows.push((name.take(), line(&part, theme.grey), indent));
             }
@@ -326,9 +334,9 @@ pub(super) fn draw_linkage(
         stroke: None,
         fill: Some(theme.grey),
     };
-    // Helpers, yokes and the points of grids are no pins.
+    // Helpers, feet of lines, yokes, racks and the points of grids are no pins.
     let drawn = mechanism.drawn_joints();
-    let is_pin = |joint: &&JointId| drawn.contains(joint) && !mechanism.is_yoke(**joint);
+    let is_pin = |joint: &&JointId| drawn.contains(joint) && mechanism.is_pin(**joint);
     marks.extend(named.iter().map(|pin| &pin[0]).filter(|joint| !is_pin(joint)).map(dot).map(Item::Circle));
     let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
     let mut obstacles = Obstacles::default();
@@ -347,8 +355,8 @@ pub(super) fn draw_linkage(
     });
 }
 
-/// The joints that only serve to place others, as far as they are near the linkage.
-fn helpers(mechanism: &PosedMechanism) -> Vec<JointId> {
+/// The joints that only serve to place others: those that are near the linkage, and those that the drawing does not have.
+fn helpers(mechanism: &PosedMechanism) -> [Vec<JointId>; 2] {
     /// The growth of the drawing up to which a point is shown.
     const MAX_GROWTH: f64 = 1.3;
     let bounds = mechanism.bounds();
@@ -356,7 +364,8 @@ fn helpers(mechanism: &PosedMechanism) -> Vec<JointId> {
         let with = bounds.union(Bounds::from_points([mechanism.pose[*joint]]));
         with.size().max() <= MAX_GROWTH * bounds.size().max()
     };
-    mechanism.mechanism.helpers.iter().copied().filter(is_near).collect()
+    let (near, far) = mechanism.mechanism.helpers.iter().copied().partition(is_near);
+    [near, far]
 }
 
 /// The joints that are drawn, those that are traced and the helpers, each name once: a grid of points has one name for all of them. Joints
@@ -369,7 +378,8 @@ fn pins(mechanism: &PosedMechanism, circuit: &Circuit) -> Vec<Vec<JointId>> {
         !linkage.is_helper(*joint) && drawn.iter().any(|other| other != joint && circuit.coincide(*other, *joint))
     };
     let hidden: Vec<JointId> = linkage.joint_ids().filter(is_hidden).collect();
-    let all = drawn.into_iter().chain(hidden).chain(helpers(mechanism));
+    let [near, _] = helpers(mechanism);
+    let all = drawn.into_iter().chain(hidden).chain(near);
     let mut pins: Vec<Vec<JointId>> = Vec::new();
     for joint in all {
         if pins.iter().flatten().any(|known| name(*known) == name(joint)) {
@@ -396,7 +406,7 @@ fn common_pins(figures: &[&Figure]) -> Vec<Vec<String>> {
     pins.fold(first, |common, next| common.into_iter().filter(|pin| next.contains(pin)).collect())
 }
 
-/// The names of pins, with their positions; those of helpers are grey.
+/// The names of pins, with their positions; those of helpers and of the feet of slots' lines are grey.
 fn joint_names(
     (mechanism, key): (&PosedMechanism, &Key),
     pins: &[Vec<JointId>],
@@ -406,7 +416,9 @@ fn joint_names(
     let linkage = mechanism.linkage;
     let label = |pin: &Vec<JointId>| {
         let names: Vec<String> = pin.iter().map(|&joint| displayed_name(&linkage.joints[joint].name)).collect();
-        let ink = if mechanism.mechanism.helpers.contains(&pin[0]) { theme.grey } else { theme.ink };
+        let is_foot = matches!(linkage.joints[pin[0]].kind, JointKind::Slot { .. }) && !mechanism.is_pin(pin[0]);
+        let is_light = is_foot || mechanism.mechanism.helpers.contains(&pin[0]);
+        let ink = if is_light { theme.grey } else { theme.ink };
         let text =
             theme.text_line(&key.pin_label(&names), Point::origin(), Anchor::Middle, theme.caption_size, ink).text;
         (plot.page_from_plane.apply(mechanism.pose[pin[0]]), text)

@@ -244,10 +244,35 @@ impl<'a> LabelPlacer<'a> {
 
     /// Places a label at a point if it overlaps nothing there.
     pub fn place_if_clear(&mut self, centre: Point, text: Text) -> Option<Item> {
-        /// The least part of enough clearance: so that a label does not touch a line.
-        const LEAST: f64 = 0.4;
         let (clearance, spot) = self.clearest_at_point(centre, &text)?;
-        (clearance >= LEAST * self.enough()).then(|| self.add(spot, text))
+        self.is_clear(clearance).then(|| self.add(spot, text))
+    }
+
+    /// Whether a label with a clearance does not touch a line.
+    fn is_clear(&self, clearance: f64) -> bool {
+        /// The least part of enough clearance.
+        const LEAST: f64 = 0.4;
+        clearance >= LEAST * self.enough()
+    }
+
+    /// Places a label at a distance from the circle of a radius around its point if it overlaps nothing there, with a line to it from the circle that passes
+    /// no other label; the label and the ends of the line.
+    pub fn place_apart(
+        &mut self,
+        (centre, radius): (Point, f64),
+        distance: f64,
+        text: Text,
+    ) -> Option<(Item, [Point; 2])> {
+        let (half, enough) = (half_size(&text), self.enough());
+        let near = self.obstacles.nearby(centre, radius + distance + 2.0 * half.x + enough);
+        let mut spots = boxes_around(centre, half, radius + distance).filter(|spot| self.is_free(spot));
+        let (spot, line) = spots.find_map(|spot| {
+            let end = centre.sup(&spot.corner(-1.0, -1.0)).inf(&spot.corner(1.0, 1.0));
+            let line = [centre + (end - centre).try_normalize(0.0)? * radius, end];
+            let is_free = self.placed.iter().all(|other| other.distance_to_segment(line) > 0.0);
+            (is_free && self.is_clear(near.clearance(spot, enough))).then_some((spot, line))
+        })?;
+        Some((self.add(spot, text), line))
     }
 
     /// The clearest box for a label at a point, with its clearance.

@@ -27,7 +27,12 @@ impl<'a> PosedMechanism<'a> {
         self.linkage.chains.iter().position(is_between).map(|chain| chain_ink(chain, theme))
     }
 
-    /// Whether a joint is that of a yoke, which is not a pin.
+    /// Whether a joint that is drawn is drawn as a pin: one that is, or that is traced.
+    pub fn is_pin(&self, joint: JointId) -> bool {
+        self.linkage.is_pin(joint) || self.linkage.traced.contains(&joint)
+    }
+
+    /// Whether a joint is that of a yoke.
     pub fn is_yoke(&self, joint: JointId) -> bool {
         matches!(self.linkage.joints[joint].kind, JointKind::Yoke { .. })
     }
@@ -89,8 +94,9 @@ impl<'a> PosedMechanism<'a> {
                 fill: None,
             }));
         }
-        for &(centre, radius) in &self.mechanism.pitch_circles {
-            let (centre, radius) = (at(&centre), radius * plot.page_from_plane.scale());
+        for gear in &self.mechanism.gears {
+            let centre = plot.page_from_plane.apply(gear.centre_in(&self.pose));
+            let radius = gear.radius * plot.page_from_plane.scale();
             let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
             items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
         }
@@ -168,7 +174,7 @@ impl<'a> PosedMechanism<'a> {
             Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
         };
         let crank_pivot = self.linkage.crank().map(|[pivot, _]| pivot);
-        for joint in self.drawn_joints().into_iter().filter(|joint| !self.is_yoke(*joint)) {
+        for joint in self.drawn_joints().into_iter().filter(|joint| self.is_pin(*joint)) {
             if self.mechanism.pivots.contains(&joint) {
                 items.extend(pivot_items(at(joint), crank_pivot == Some(joint), ink(joint), theme));
             } else {

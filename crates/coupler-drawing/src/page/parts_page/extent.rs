@@ -1,6 +1,7 @@
 //! How much of the page items take.
 
-use crate::scene::{Anchor, Item, Path, Polyline, Text};
+use super::super::labels::LabelBox;
+use crate::scene::{Anchor, Item, Text};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
 /// The bounds of items, with their texts.
@@ -18,12 +19,11 @@ pub(super) fn bounds(items: &[Item]) -> Bounds {
     items.iter().map(item_bounds).fold(Bounds::EMPTY, Bounds::union)
 }
 
-/// The box of a text, as a line around it; `None` if an item is none.
-pub(super) fn text_box(item: &Item) -> Option<Item> {
+/// The box of a text; `None` if an item is none.
+pub(super) fn text_box(item: &Item) -> Option<LabelBox> {
     let Item::Text(text) = item else { return None };
     let [a, c] = text_corners(text);
-    let points = vec![a, Point::new(c.x, a.y), c, Point::new(a.x, c.y)];
-    Some(Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke: None, fill: None }))
+    Some(LabelBox { centre: a + (c - a) / 2.0, half_size: (c - a) / 2.0 })
 }
 
 /// Two opposite corners of a text, which is upright or reads upwards.

@@ -1,18 +1,15 @@
 //! Views side by side in rows.
 
 use super::super::rect::Rect;
-use super::super::theme::Theme;
-use super::group::Group;
-use super::part_view::{self, PartView};
+use super::part_view::{PartView, Views};
 use crate::scene::Item;
 use coupler_curves::geometry::Vector;
-use coupler_curves::parts::Sizes;
 
 /// The views of parts at a scale in rows of a rectangle, the highest first; `None` if they do not fit.
-pub(super) fn layout(groups: &[Group], sizes: Sizes, scale: f64, rect: Rect, theme: &Theme) -> Option<Vec<Vec<Item>>> {
-    let mut views: Vec<PartView> = groups.iter().map(|group| part_view::view(group, sizes, scale, theme)).collect();
+pub(super) fn layout(parts: &Views, scale: f64, rect: Rect) -> Option<Vec<Vec<Item>>> {
+    let mut views: Vec<PartView> = parts.groups.iter().map(|group| parts.view(group, scale)).collect();
     views.sort_by(|a, b| b.size.y.total_cmp(&a.size.y));
-    let gap = 1.5 * theme.note_size;
+    let gap = 1.5 * parts.theme.note_size;
     let mut rows: Vec<(f64, f64, Vec<PartView>)> = Vec::new();
     for view in views {
         if view.size.x > rect.size.x {

@@ -3,11 +3,13 @@
 use super::super::element::translated;
 use super::super::labels::{LabelPlacer, Obstacles};
 use super::super::rect::Rect;
+use super::super::scales::{format_scale, usual_scale_below};
 use super::super::theme::Theme;
 use super::dimension::{Dimension, Direction, PITCH, length_text};
 use super::extent::{bounds, text_box};
 use super::group::Group;
-use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke};
+use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke, Text};
+use coupler_curves::family::LengthUnit;
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, trig};
 use coupler_curves::parts::{Hole, Outline, Part, Sizes};
 
@@ -24,31 +26,72 @@ impl PartView {
     }
 }
 
-/// The view of parts of one shape at a scale in millimetres to a unit.
-pub(super) fn view(group: &Group, sizes: Sizes, scale: f64, theme: &Theme) -> PartView {
-    let page_from_part = Similarity::with_y_down(scale, Point::origin());
-    let part = group.part;
-    let mut items = cut_items(part, sizes, &page_from_part, theme);
-    // Those across are under the numbers of the others, too.
-    for direction in [Direction::Up, Direction::Across] {
-        let around = bounds(&items);
-        let dimensions = dimensions(part, direction, around, &page_from_part, theme);
-        items.extend(dimensions.iter().flat_map(|dimension| dimension.items(theme)));
+/// What the views of a page are of.
+pub(super) struct Views<'a> {
+    pub groups: &'a [Group<'a>],
+    pub sizes: Sizes,
+    pub unit: Option<LengthUnit>,
+    pub theme: &'a Theme,
+}
+
+impl Views<'_> {
+    /// The extent of the greatest part.
+    pub fn extent(&self) -> f64 {
+        self.groups.iter().map(extent).fold(0.0, f64::max)
     }
-    let with_dimensions = bounds(&items);
+
+    /// The view of parts of one shape at a scale in millimetres to a unit; a part that would be too small to be seen has a greater one of its own.
+    pub fn view(&self, group: &Group, scale: f64) -> PartView {
+        let &Views { sizes, theme, .. } = self;
+        let own_scale = self.scale_of_small(group, scale);
+        let page_from_part = Similarity::with_y_down(own_scale.unwrap_or(scale), Point::origin());
+        let part = group.part;
+        let mut items = cut_items(part, sizes, &page_from_part, theme);
+        // Those across are under the numbers of the others, too.
+        for direction in [Direction::Up, Direction::Across] {
+            let around = bounds(&items);
+            let dimensions = dimensions(part, direction, around, &page_from_part, theme);
+            items.extend(dimensions.iter().flat_map(|dimension| dimension.items(theme)));
+        }
+        let with_dimensions = bounds(&items);
+        items.extend(letters((part, sizes), &items, with_dimensions, &page_from_part, theme));
+        let scale = own_scale.map(|scale| format_scale(scale, self.unit));
+        items.extend(title_items((group, scale), bounds(&items), theme));
+        let all = bounds(&items);
+        let items = items.into_iter().map(|item| translated(item, -all.min.coords)).collect();
+        PartView { size: all.size(), items }
+    }
+
+    /// The scale at which a part can be seen that cannot at that of the page, and is small next to the others.
+    fn scale_of_small(&self, group: &Group, scale: f64) -> Option<f64> {
+        /// What is too small, and how large it becomes at most, in ems of a note.
+        const SIZES: [f64; 2] = [3.0, 10.0];
+        /// How large it becomes at most, as a part of the greatest part.
+        const MOST: f64 = 0.3;
+        let [small, large] = SIZES.map(|size| size * self.theme.note_size);
+        let own = usual_scale_below(large.min(MOST * self.extent() * scale) / extent(group), self.unit);
+        (extent(group) * scale < small && own >= 2.0 * scale).then_some(own)
+    }
+}
+
+/// The extent of a part.
+fn extent(group: &Group) -> f64 {
+    group.part.outline.bounds().size().max()
+}
+
+/// The names of the parts, how many there are and their scale if it is not that of the page, over what is drawn of them.
+fn title_items((group, scale): (&Group, Option<String>), drawn: Bounds, theme: &Theme) -> Vec<Item> {
+    /// The width that lines may have however small the view is, in ems.
+    const MIN_WIDTH: f64 = 12.0;
     let size = theme.caption_size;
-    // Letters may be around the outline.
-    let room = Vector::repeat(1.5 * theme.note_size);
-    let frame = Rect { corner: with_dimensions.min - room, size: with_dimensions.size() + room * 2.0 };
-    items.extend(letters((part, sizes), &items, frame, &page_from_part, theme));
-    let all = bounds(&items);
     let count = if group.names.len() > 1 { format!(" ({}×)", group.names.len()) } else { String::new() };
-    let title = format!("{}{count}", group.names.join(", "));
-    let at = Point::new(all.centre().x, all.min.y - 0.6 * size);
-    items.push(Item::Text(theme.text_line(&title, at, Anchor::Middle, size, theme.ink).text));
-    let all = bounds(&items);
-    let items = items.into_iter().map(|item| translated(item, -all.min.coords)).collect();
-    PartView { size: all.size(), items }
+    let line = |words: &str, at: Point| theme.text_line(words, at, Anchor::Middle, size, theme.ink);
+    let scale = scale.map_or(String::new(), |scale| format!(", scale {scale}"));
+    let title = format!("{}{count}{scale}", group.names.join(", "));
+    let lines = line(&title, Point::origin()).wrap(drawn.size().x.max(MIN_WIDTH * size));
+    let foot = Point::new(drawn.centre().x, drawn.min.y - 0.6 * size);
+    let at = |k: usize| foot - Vector::new(0.0, 1.2 * size * (lines.len() - 1 - k) as f64);
+    lines.iter().enumerate().map(|(k, words)| Item::Text(line(words, at(k)).text)).collect()
 }
 
 /// What is cut, with centre lines.
@@ -136,38 +179,62 @@ fn dimensions(
     places.iter().enumerate().map(dimension).collect()
 }
 
-/// The letters of the holes, which are not in the holes.
+/// The names of the holes, each beside its hole where it overlaps nothing, and otherwise at the end of a line from there.
 fn letters(
     (part, sizes): (&Part, Sizes),
     items: &[Item],
-    frame: Rect,
+    drawn: Bounds,
     page_from_part: &Similarity,
     theme: &Theme,
 ) -> Vec<Item> {
     let mut obstacles = Obstacles::default();
     obstacles.add(items, false);
-    let numbers = items.iter().filter_map(text_box);
     let radius = sizes.hole / 2.0 * page_from_part.scale();
     let disk = |hole: &Hole| {
         let centre = page_from_part.apply(hole.centre);
         Item::Circle(Circle { centre, radius, stroke: None, fill: Some(theme.paper) })
     };
-    obstacles.add(&numbers.chain(part.holes.iter().map(disk)).collect::<Vec<_>>(), false);
-    let mut placer = LabelPlacer::new(&obstacles, frame, theme);
-    let named = part.holes.iter().filter(|hole| !hole.name.is_empty());
+    obstacles.add(&part.holes.iter().map(disk).collect::<Vec<_>>(), false);
     let size = theme.note_size;
-    let letter = |hole: &Hole| {
-        let text = theme.text_line(&hole.name, Point::origin(), Anchor::Middle, size, theme.ink).text;
-        let centre = page_from_part.apply(hole.centre);
+    let named = part.holes.iter().filter(|hole| !hole.name.is_empty());
+    let named: Vec<(Point, Text)> = named
+        .map(|hole| {
+            let text = theme.text_line(&hole.name, Point::origin(), Anchor::Middle, size, theme.ink).text;
+            (page_from_part.apply(hole.centre), text)
+        })
+        .collect();
+    // Names may be around everything else.
+    let widest = named.iter().map(|(_, text)| text.width()).fold(0.0, f64::max);
+    let room = Vector::new(widest + 3.0 * size, 4.0 * size);
+    let frame = Rect { corner: drawn.min - room, size: drawn.size() + room * 2.0 };
+    let numbers = items.iter().filter_map(text_box).collect();
+    let mut placer = LabelPlacer::new(&obstacles, frame, theme).with_placed(numbers, 0.0);
+    let mut out = Vec::new();
+    for (centre, text) in named {
         let around = |deg: f64| {
             let (cos, sin) = trig::cos_sin_deg(deg);
             centre + Vector::new(cos, -sin) * (radius + 0.5 * size)
         };
-        let clear = DIRECTIONS_DEG.iter().find_map(|deg| placer.place_if_clear(around(*deg), text.clone()));
-        clear.or_else(|| placer.place_at_point(centre, text))
-    };
-    named.filter_map(letter).collect()
+        let beside = DIRECTIONS_DEG.iter().find_map(|deg| placer.place_if_clear(around(*deg), text.clone()));
+        if let Some(name) = beside {
+            out.push(name);
+            continue;
+        }
+        let apart =
+            DISTANCES.iter().find_map(|distance| placer.place_apart((centre, radius), distance * size, text.clone()));
+        match apart {
+            Some((name, line)) => {
+                let stroke = theme.stroke(theme.grey, theme.hair_width);
+                out.extend([Item::Path(Path::stroked(line.to_vec(), stroke)), name]);
+            }
+            None => out.extend(placer.place_at_point(centre, text)),
+        }
+    }
+    out
 }
 
-/// Where letters are sought around a hole: first where no dimension leads away from it.
+/// Where names are sought around a hole: first where no dimension leads away from it.
 const DIRECTIONS_DEG: [f64; 8] = [45.0, 135.0, 0.0, 90.0, 180.0, 315.0, 225.0, 270.0];
+
+/// How far from their hole names with a line are sought, in ems.
+const DISTANCES: [f64; 10] = [1.5, 2.5, 4.0, 6.0, 9.0, 13.0, 18.0, 26.0, 38.0, 54.0];

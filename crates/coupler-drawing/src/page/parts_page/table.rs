@@ -8,70 +8,146 @@ use super::dimension::length_text;
 use super::group::Group;
 use crate::scene::{Anchor, Color, Item, MIN_TEXT_SIZE, Path};
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::parts::{Outline, Part, Parts};
+use coupler_curves::parts::{Outline, Part, Parts, Slot};
+use coupler_curves::text::pluralize;
 
-/// The texts of a row.
-type Row = [String; 4];
+/// The number of columns.
+const COLUMNS: usize = 4;
 
-/// Where the columns begin, as parts of the width.
-const COLUMNS: [f64; 4] = [0.0, 0.24, 0.32, 0.42];
+/// The table.
+pub(super) struct Table<'t> {
+    head: [String; COLUMNS],
+    /// The texts of each row, and how many parts it is of.
+    rows: Vec<([String; COLUMNS], usize)>,
+    /// What is said under the rows.
+    notes: Vec<String>,
+    theme: &'t Theme,
+}
 
-/// Draws the table, in a size at which it fits, and as many of its lines as fit at the smallest.
-pub(super) fn draw(root: &impl Area, rect: Rect, groups: &[Group], parts: &Parts, theme: &Theme) {
-    let head = ["part", "n", "holes", "centres apart"].map(str::to_owned);
-    let rows: Vec<Row> = std::iter::once(head).chain(groups.iter().map(row)).collect();
-    let smallest = MIN_TEXT_SIZE.min(theme.note_size);
-    let sizes = [1.0, 0.9, 0.8, 0.0].map(|part| (part * theme.note_size).max(smallest));
-    let fits = |size: &f64| {
-        lines(&rows, rect.size.x, *size, theme).len() as f64 * LEADING * size <= rect.size.y - 2.0 * LEADING * size
-    };
-    let size = sizes.into_iter().find(fits).unwrap_or(smallest);
-    let text = |text: &str, at: Point, color: Color| theme.text_line(text, at, Anchor::Start, size, color);
-    let width = rect.size.x;
-    let mut items = Vec::new();
-    let mut y = LEADING * size;
-    let below = |y: f64| rect.corner + Vector::new(0.0, y);
-    for (k, line) in lines(&rows, width, size, theme).into_iter().enumerate() {
-        if y + LEADING * size > rect.size.y {
-            break;
-        }
-        let color = if k == 0 { theme.grey } else { theme.ink };
-        for (column, words) in line.iter().enumerate() {
-            let next = COLUMNS.get(column + 1).map_or(width, |next| next * width - 0.5 * size);
-            let line = text(words, below(y) + Vector::new(COLUMNS[column] * width, 0.0), color);
-            items.push(Item::Text(line.fit_width(next - COLUMNS[column] * width).text));
-        }
-        if k == 0 {
-            let rule = [below(y + 0.4 * size), below(y + 0.4 * size) + Vector::new(width, 0.0)];
-            items.push(Item::Path(Path::stroked(rule.to_vec(), theme.stroke(theme.grey, theme.hair_width))));
-            y += 0.3 * size;
-        }
-        y += LEADING * size;
-    }
-    let [hole, link] = [parts.sizes.hole, parts.sizes.width].map(length_text);
-    let note = format!("holes and slots {hole} wide, links {link}");
-    items.push(Item::Text(text(&note, below((y + 0.3 * size).min(rect.size.y)), theme.grey).fit_width(width).text));
-    root.record(Drawing { class: "parts", title: String::new(), items });
+/// Some rows of the table in a size of text: their columns begin at these places, and each has its texts in lines.
+struct SetRows {
+    size: f64,
+    columns: [f64; COLUMNS],
+    rows: Vec<[Vec<String>; COLUMNS]>,
+    notes: Vec<String>,
 }
 
 /// The distance from a line to the next, in ems.
 const LEADING: f64 = 1.35;
 
-/// The lines of the rows: the distances of a part may take several.
-fn lines(rows: &[Row], width: f64, size: f64, theme: &Theme) -> Vec<Row> {
-    let last = (1.0 - COLUMNS[3]) * width;
-    let wrap =
-        |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, size, theme.ink).wrap_at_separators(last);
-    let mut out = Vec::new();
-    for [name, count, holes, distances] in rows {
-        let mut wrapped = wrap(distances).into_iter();
-        out.push([name.clone(), count.clone(), holes.clone(), wrapped.next().unwrap_or_default()]);
-        out.extend(wrapped.map(|rest| [String::new(), String::new(), String::new(), rest]));
+/// What the rule under the head and the notes are further down, in ems.
+const GAP: f64 = 0.3;
+
+impl<'t> Table<'t> {
+    /// The table of some parts, those of one shape in a row.
+    pub fn new(groups: &[Group], parts: &Parts, theme: &'t Theme) -> Table<'t> {
+        let [hole, link] = [parts.sizes.hole, parts.sizes.width].map(length_text);
+        Table {
+            head: ["part", "n", "holes", "centres apart"].map(str::to_owned),
+            rows: groups.iter().map(|group| (row(group), group.names.len())).collect(),
+            notes: vec![format!("holes and slots {hole} wide, links {link}")],
+            theme,
+        }
     }
-    out
+
+    /// The table with a further note.
+    pub fn with_note(mut self, note: Option<String>) -> Table<'t> {
+        self.notes.extend(note);
+        self
+    }
+
+    /// Whether all of it fits a rectangle of a size.
+    pub fn fits(&self, size: Vector) -> bool {
+        self.fitting(size).is_some()
+    }
+
+    /// Draws the table in the greatest size of text in which it fits; where none does, as many rows as fit, and how many parts are left out.
+    pub fn draw(&self, root: &impl Area, rect: Rect) {
+        let set = self.fitting(rect.size).unwrap_or_else(|| self.cut(rect.size));
+        root.record(Drawing { class: "parts", title: String::new(), items: set.items(rect, self.theme) });
+    }
+
+    fn smallest(&self) -> f64 {
+        MIN_TEXT_SIZE.min(self.theme.note_size)
+    }
+
+    fn fitting(&self, size: Vector) -> Option<SetRows> {
+        let sizes = [1.0, 0.9, 0.8, 0.0].map(|part| (part * self.theme.note_size).max(self.smallest()));
+        let set = |em: f64| self.set(self.rows.len(), size.x, em);
+        sizes.into_iter().map(set).find(|set| set.height() <= size.y)
+    }
+
+    /// As many of the first rows as fit at the smallest size of text.
+    fn cut(&self, size: Vector) -> SetRows {
+        let set = |count: usize| self.set(count, size.x, self.smallest());
+        (1..self.rows.len()).rev().map(set).find(|set| set.height() <= size.y).unwrap_or_else(|| set(0))
+    }
+
+    /// The first rows in a width.
+    fn set(&self, count: usize, width: f64, size: f64) -> SetRows {
+        /// The most that the names take, as a part of the width.
+        const MAX_NAMES: f64 = 0.34;
+        let line = |text: &str| self.theme.text_line(text, Point::origin(), Anchor::Start, size, self.theme.ink);
+        let texts = || std::iter::once(&self.head).chain(self.rows[..count].iter().map(|(texts, _)| texts));
+        let gap = 0.8 * size;
+        let natural = |k: usize| texts().map(|row| line(&row[k]).text.width()).fold(0.0, f64::max) + gap;
+        let [names, counts, holes] = [natural(0).min(MAX_NAMES * width), natural(1), natural(2)];
+        let columns = [0.0, names, names + counts, names + counts + holes];
+        let widths = [names - 0.5 * gap, counts, holes, width - columns[3]];
+        let set = |row: &[String; COLUMNS]| std::array::from_fn(|k| line(&row[k]).wrap_at_separators(widths[k]));
+        let left_out: usize = self.rows[count..].iter().map(|(_, parts)| parts).sum();
+        let left_out = (left_out > 0)
+            .then(|| format!("… and {}, for which this page is too small", pluralize(left_out, "more part")));
+        let notes = left_out.iter().chain(&self.notes).flat_map(|note| line(note).wrap_at_separators(width)).collect();
+        SetRows { size, columns, rows: texts().map(set).collect(), notes }
+    }
 }
 
-fn row(group: &Group) -> Row {
+impl SetRows {
+    fn height(&self) -> f64 {
+        let lines: usize = self.rows.iter().map(line_count).sum::<usize>() + self.notes.len();
+        self.size * (LEADING * lines as f64 + 3.0 * GAP)
+    }
+
+    fn items(&self, rect: Rect, theme: &Theme) -> Vec<Item> {
+        let (size, step) = (self.size, LEADING * self.size);
+        let mut items = Vec::new();
+        let mut y = step;
+        let below = |y: f64| rect.corner + Vector::new(0.0, y);
+        let mut write = |words: &str, at: Point, color: Color| {
+            items.push(Item::Text(theme.text_line(words, at, Anchor::Start, size, color).text));
+        };
+        let mut rule = y;
+        for (k, row) in self.rows.iter().enumerate() {
+            let color = if k == 0 { theme.grey } else { theme.ink };
+            for (words, x) in row.iter().zip(self.columns) {
+                for (place, words) in words.iter().enumerate() {
+                    write(words, below(y + step * place as f64) + Vector::new(x, 0.0), color);
+                }
+            }
+            y += step * line_count(row) as f64;
+            if k == 0 {
+                rule = y - step + 0.4 * size;
+                y += GAP * size;
+            }
+        }
+        y += GAP * size;
+        for note in &self.notes {
+            write(note, below(y), theme.grey);
+            y += step;
+        }
+        let rule = [below(rule), below(rule) + Vector::new(rect.size.x, 0.0)];
+        items.push(Item::Path(Path::stroked(rule.to_vec(), theme.stroke(theme.grey, theme.hair_width))));
+        items
+    }
+}
+
+/// The number of lines of a row.
+fn line_count(row: &[Vec<String>; COLUMNS]) -> usize {
+    row.iter().map(Vec::len).max().unwrap_or_default()
+}
+
+fn row(group: &Group) -> [String; COLUMNS] {
     let Part { holes, slots, outline, .. } = group.part;
     let slot_count = if slots.is_empty() { String::new() } else { format!(" + {}", slots.len()) };
     let named: Vec<_> = holes.iter().filter(|hole| !hole.name.is_empty()).collect();
@@ -81,9 +157,7 @@ fn row(group: &Group) -> Row {
         let (a, b) = (named[j], named[k]);
         format!("{}–{} {}", a.name, b.name, length_text((b.centre - a.centre).norm()))
     };
-    let slot = |slot: &coupler_curves::parts::Slot| {
-        format!("slot {} {}", slot.name, length_text((slot.ends[1] - slot.ends[0]).norm()))
-    };
+    let slot = |slot: &Slot| format!("slot {} {}", slot.name, length_text((slot.ends[1] - slot.ends[0]).norm()));
     let radius = match outline {
         Outline::Circle { radius, .. } if group.part.name.starts_with("gear") => {
             Some(format!("pitch radius {}", length_text(*radius)))
