@@ -55,7 +55,7 @@ fn each_mistake_has_its_message() {
         ("(1 + p)", "sine(p)", "unknown function `sine`", "8:14"),
         ("let = { a = \"(1 + p)^1.5 / 2\" }\n", "", "`a` has no value", "7:8"),
         ("[atlas]", "[pages]\n[atlas]", "a manifest has no key `pages`", "1:2"),
-        ("[atlas]", "[page]\npaper = \"a5\"\n[atlas]", "`a5` is not one of the words allowed here", "2:9"),
+        ("[atlas]", "[page]\npaper = \"a7\"\n[atlas]", "`a7` is not one of the words allowed here", "2:9"),
         ("[atlas]", "[page]\ndpi = 1e6\n[atlas]", "1000000 pixels to the inch is out of range", "2:7"),
         ("let =", "columns = [\"vx\", \"vq\"]\nlet =", "there is no column `vq`", "8:18"),
         ("let =", "measures = [\"class\", \"lenght\"]\nlet =", "there is no measure `lenght`", "8:22"),

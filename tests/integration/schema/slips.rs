@@ -21,7 +21,7 @@ const SLIPS: [(&str, &str); 68] = [
     ("dash = \"5 deg\"", "dash = 5"),
     ("dash = \"5 deg\"", "dash = \"5 mm\""),
     ("\"outlines\"", "\"outline\""),
-    ("{ width = \"300 mm\", height = \"8.5 in\" }", "\"a5\""),
+    ("{ width = \"300 mm\", height = \"8.5 in\" }", "\"a7\""),
     ("{ width = \"300 mm\", height = \"8.5 in\" }", "{ width = \"300 mm\" }"),
     ("width = \"300 mm\"", "width = 300"),
     ("width = \"300 mm\"", "depth = \"1 mm\", width = \"300 mm\""),

@@ -45,7 +45,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = solved.linkage.input().unit_sign();
         // The input may pass the mirror image in another range.
-        let image = mirrored_portion(solved, curve, portion).map_or("", |_| ", and its mirror image");
+        let image = mirrored_portion(solved, curve, portion).map_or("", |_| ", also mirrored");
         let length = format_with_digits(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
         let path = match path_name(solved, curve) {

@@ -16,10 +16,8 @@ export function freeArray(/** @type {TypedArray} */ { buffer }) {
   if (buffer instanceof ArrayBuffer) buffer.transfer?.(0);
 }
 
-/** Has the browser collect its garbage soon: it does when so much has been allocated for arrays, and would otherwise keep what several searches left. */
-export function requestCollection() {
-  new ArrayBuffer(64 << 20).transfer?.(0);
-}
+/** Has the browser collect its garbage soon, as it does where much is allocated for arrays: it keeps what several searches left otherwise. */
+export const requestCollection = () => new ArrayBuffer(64 << 20).transfer?.(0);
 
 /**
  * Decodes a column of `count` numbers into a new array of a kind.
