@@ -832,7 +832,7 @@ fn the_pages_of_a_linkage_have_the_same_columns() {
 #[test]
 fn names_in_the_key_touch_no_line_on_small_paper() {
     let plan = example();
-    for scene in all_pages(&plan, 97, &options((105.0, 148.0))) {
+    for scene in all_pages(&plan, 40, &options((105.0, 148.0))) {
         let names = texts(&scene).into_iter().filter(|(_, text)| ["along", "0°"].contains(&content(text).as_str()));
         for (_, name) in names.take(2) {
             let rect = Rect::from_text(name, [0.7, 0.0]);

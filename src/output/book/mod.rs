@@ -319,18 +319,24 @@ fn short_title<'t>(k: usize, titles: &[&'t str]) -> &'t str {
     words.last().filter(|rest| !rest.is_empty()).unwrap_or(title)
 }
 
+/// The shorter side of the plate that is explained from which it has two panels, in millimetres.
+const LEAST_FOR_TWO_PANELS: f64 = 100.0;
+
 /// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
     let chapter = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
     let planned = chapter.family.pipeline.composer.planned;
     let family = &planned.family;
-    // In many panels nothing has space for a number.
-    let layout = match planned.layout {
-        Layout::Panels { columns, .. } => Layout::Panels { columns: columns.min(2), rows: 1 },
-        layout => layout,
-    };
     // As a plate of smaller paper, on which letters are as small as they may be.
     let part = book::plate_part(&plan.page);
+    // In many panels nothing has space for a number, and on small paper in two.
+    let is_small = part * plan.page.paper.width.min(plan.page.paper.height) < LEAST_FOR_TWO_PANELS;
+    let layout = match planned.layout {
+        Layout::Panels { columns, .. } => {
+            Layout::Panels { columns: columns.min(if is_small { 1 } else { 2 }), rows: 1 }
+        }
+        layout => layout,
+    };
     let scale = match planned.scale {
         PanelScale::Fixed(scale) => PanelScale::Fixed(part * scale),
         scale => scale,

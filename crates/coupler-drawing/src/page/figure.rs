@@ -4,6 +4,7 @@ use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
 use super::body::BodyDrawing;
 use super::element::{CouplerCurve, Drawing, TextLine};
+use super::extents;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -19,8 +20,7 @@ use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::{Input, JointId, Linkage};
-use coupler_curves::measure::{self, TracedCurve};
-use coupler_curves::motion::{self, Circuit, Pass};
+use coupler_curves::motion::Circuit;
 use coupler_curves::path::{self, DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -53,74 +53,6 @@ pub(super) fn curve_path(
     let splines = path.whole.iter_mut().chain(path.dashes.iter_mut().map(|dash| &mut dash.spline));
     splines.for_each(|spline| spline.transform(|point| page_from_plane.apply(point)));
     path
-}
-
-/// The bounds of a curve, or only their centre if the curve is so small, compared with the coordinates of its linkage,
-/// that rounding would be visible at the scale at which it fills a page.
-fn without_rounding(curve: Bounds, linkage: Bounds) -> Bounds {
-    /// The rounding of a position is about 1e-16 of the coordinates it is computed from: a millionth of the page.
-    const LEAST_SIZE: f64 = 1e-10;
-    let coordinates = [linkage.min.x, linkage.min.y, linkage.max.x, linkage.max.y];
-    let greatest = coordinates.into_iter().map(f64::abs).fold(0.0, f64::max);
-    let is_visible = curve.size().max() > LEAST_SIZE * greatest;
-    if is_visible { curve } else { Bounds::from_points([curve.centre()]) }
-}
-
-/// The poses of a linkage at the limits of its input on the circuit of a curve, or at those of its output if the input
-/// turns fully.
-fn limits(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Vec<Point>> {
-    let circuit = solved.circuit(curve);
-    if !circuit.is_full_turn() {
-        return limit_poses(&solved.linkage, circuit);
-    }
-    let traced = TracedCurve::new(&solved.linkage, &solved.motion, circuit, curve.joint);
-    measure::output_limit_poses(&traced).map(Vec::from).unwrap_or_default()
-}
-
-/// The poses of a circuit at which the input reverses.
-fn limit_poses(linkage: &Linkage, circuit: &Circuit) -> Vec<Vec<Point>> {
-    let passes = &circuit.passes;
-    let pose = |k: usize| motion::pose(linkage, &passes[k], passes[k].to.input.value);
-    (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
-}
-
-/// The circuits of a cell with the bounds of their curves, each in a group of its own if there are not too many.
-fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
-    /// With more groups than this, the frames are too small to enlarge anything.
-    const MAX_GROUPS: usize = 4;
-    let mut groups: Vec<(Vec<usize>, Bounds)> = Vec::new();
-    for curve in &solved.curves {
-        let bounds = curve_bounds(solved, curve);
-        let bounds = bounds.union(tolerance_band::bounds(solved, curve));
-        match groups.iter_mut().find(|(circuits, _)| circuits.contains(&curve.circuit)) {
-            Some((_, whole)) => *whole = whole.union(bounds),
-            None => groups.push((vec![curve.circuit], bounds)),
-        }
-    }
-    if groups.len() > MAX_GROUPS {
-        let whole = groups.iter().fold(Bounds::EMPTY, |whole, (_, bounds)| whole.union(*bounds));
-        return vec![(groups.into_iter().flat_map(|(circuits, _)| circuits).collect(), whole)];
-    }
-    groups
-}
-
-/// The bounds of a curve. Those of its samples are a part of a thousand less at most, unless there are few: then it has more poses.
-fn curve_bounds(solved: &SolvedCell, curve: &MeasuredCurve) -> Bounds {
-    /// The samples that are enough, as of a curve with turns of 10 degrees between them; and the poses of a pass of which there are fewer.
-    const ENOUGH: usize = 180;
-    const POSES: u32 = 90;
-    let circuit = solved.circuit(curve);
-    let sampled = Bounds::from_points(circuit.points(curve.joint));
-    if circuit.len() >= ENOUGH {
-        return sampled;
-    }
-    let of_pass = |pass: &Pass| {
-        let inputs: Vec<f64> =
-            (0..=POSES).map(|k| motion::eased_input(pass, f64::from(k) / f64::from(POSES))).collect();
-        let positions = motion::poses(&solved.linkage, pass, &inputs);
-        Bounds::from_points((0..inputs.len()).map(|k| positions.point(curve.joint, k)))
-    };
-    circuit.passes.iter().fold(sampled, |bounds, pass| bounds.union(of_pass(pass)))
 }
 
 /// The number of a cell at the upper left of its panel.
@@ -157,16 +89,15 @@ impl<'a> Figure<'a> {
         };
         let parts = Mechanism::new(&solved.linkage, circuit);
         let mechanism = |pose| PosedMechanism::new(&solved.linkage, parts.clone(), pose);
-        let ghosts = if panel.has_ghosts { limits(solved, first) } else { Vec::new() };
+        let ghosts = if panel.has_ghosts { pose::limits(solved, first) } else { Vec::new() };
         let [mechanisms, ghosts] = [poses, ghosts].map(|poses| poses.into_iter().map(mechanism).collect::<Vec<_>>());
-        let groups = circuit_groups(solved);
-        let curves = groups.iter().fold(Bounds::EMPTY, |whole, (_, bounds)| whole.union(*bounds));
-        let linkage =
-            mechanisms.iter().chain(&ghosts).fold(curves, |linkage, mechanism| linkage.union(mechanism.bounds()));
-        let linkage = panel.body.bounds(linkage);
-        let curves = groups.iter().map(|(_, bounds)| without_rounding(*bounds, linkage)).collect();
+        let groups = extents::circuit_groups(solved);
+        let shown = || mechanisms.iter().chain(&ghosts);
+        let with_linkage = |curves| {
+            panel.body.bounds(shown().fold(curves, |whole: Bounds, mechanism| whole.union(mechanism.bounds())))
+        };
+        let extents = extents::of_groups(&groups, with_linkage);
         let groups = groups.into_iter().map(|(circuits, _)| circuits).collect();
-        let extents = Extents { curves, linkage };
         Some(Figure { panel, solved_cell: solved, mechanisms, seconds, ghosts, groups, extents })
     }
 
@@ -435,7 +366,7 @@ impl<'a> Figure<'a> {
     /// The poses at the limits of the input, by circuit.
     fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
         let circuits = self.solved_cell.motion.circuits.iter();
-        circuits.map(|circuit| limit_poses(&self.solved_cell.linkage, circuit)).collect()
+        circuits.map(|circuit| pose::limit_poses(&self.solved_cell.linkage, circuit)).collect()
     }
 
     /// The traced points of curves in the pose, which is on the circuit of the first curve.

@@ -291,8 +291,10 @@ impl KeyLines {
             true => self.rows.len() + 1 - self.capacity(),
             false => 0,
         };
-        let text = format!("… and {left_out} more lines, for which this page is too small");
-        let rest = theme.text_line(&text, Point::origin(), Anchor::Start, em, theme.ink);
+        let short = format!("… and {left_out} more lines");
+        let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.ink);
+        let whole = line(&format!("{short}, for which this page is too small"));
+        let rest = if whole.text.width() <= self.width { whole } else { line(&short) };
         let rest = (left_out > 0).then_some((None, rest, 0.0));
         let shown = self.rows.len() - left_out;
         for (k, (name, text, indent)) in self.rows[..shown].iter().chain(&rest).enumerate() {

@@ -16,6 +16,7 @@ mod chart_grid;
 mod coupler_grid;
 mod direction;
 mod element;
+mod extents;
 mod figure;
 mod guided_body;
 mod heading;

@@ -3,7 +3,9 @@
 use super::mechanism::sliding_line;
 use coupler_curves::geometry::{Point, cross, distance_to_segment};
 use coupler_curves::linkage::{BranchArc, DyadId, JointId, JointKind, Linkage};
-use coupler_curves::motion::Circuit;
+use coupler_curves::measure::{self, TracedCurve};
+use coupler_curves::motion::{self, Circuit};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// The positions of all joints in the clearest pose of a circuit.
 ///
@@ -141,6 +143,24 @@ fn min_slider_cosine(linkage: &Linkage, links: &[Vec<JointId>], at: &[Point]) ->
         }
     }
     least
+}
+
+/// The poses of a linkage at the limits of its input on the circuit of a curve, or at those of its output if the input
+/// turns fully.
+pub(super) fn limits(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Vec<Point>> {
+    let circuit = solved.circuit(curve);
+    if !circuit.is_full_turn() {
+        return limit_poses(&solved.linkage, circuit);
+    }
+    let traced = TracedCurve::new(&solved.linkage, &solved.motion, circuit, curve.joint);
+    measure::output_limit_poses(&traced).map(Vec::from).unwrap_or_default()
+}
+
+/// The poses of a circuit at which the input reverses.
+pub(super) fn limit_poses(linkage: &Linkage, circuit: &Circuit) -> Vec<Vec<Point>> {
+    let passes = &circuit.passes;
+    let pose = |k: usize| motion::pose(linkage, &passes[k], passes[k].to.input.value);
+    (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
 }
 
 #[cfg(test)]
