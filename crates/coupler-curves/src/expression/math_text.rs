@@ -69,15 +69,15 @@ impl MathText {
         self.pieces.is_empty()
     }
 
-    /// The text in lines that fit: broken after commas where that is possible, and otherwise between words. A word that
-    /// does not fit is divided.
+    /// The text in lines that fit: broken after commas and semicolons outside of parentheses where that is possible, and otherwise between words.
+    /// A word that does not fit is divided.
     pub fn wrap(&self, fits: impl Fn(&MathText) -> bool) -> Vec<MathText> {
         let mut lines: Vec<MathText> = Vec::new();
         let mut add = |part: MathText| match lines.last_mut() {
             Some(line) if fits(&line.clone().with(part.trimmed())) => *line = std::mem::take(line).with(part),
             _ => lines.push(part),
         };
-        for clause in self.split_after(", ") {
+        for clause in self.clauses() {
             if fits(&clause.trimmed()) {
                 add(clause);
             } else {
@@ -85,6 +85,23 @@ impl MathText {
             }
         }
         lines.iter().map(MathText::trimmed).collect()
+    }
+
+    /// The parts of the text between commas and semicolons that are not in parentheses, each with what ends it.
+    fn clauses(&self) -> Vec<MathText> {
+        let parts = self.split_after(", ").into_iter().flat_map(|part| part.split_after("; "));
+        let is_open = |text: &MathText| {
+            let count = |c: char| text.pieces.iter().map(|piece| piece.text.matches(c).count()).sum::<usize>();
+            count('(') > count(')')
+        };
+        let mut clauses: Vec<MathText> = Vec::new();
+        for part in parts {
+            match clauses.last_mut() {
+                Some(last) if is_open(last) => *last = std::mem::take(last).with(part),
+                _ => clauses.push(part),
+            }
+        }
+        clauses
     }
 
     /// The text, or its parts if it does not fit.
@@ -401,5 +418,8 @@ mod tests {
         let text = MathText::from_words("CrankPin–Knee = 3, RockerPin");
         let lines = text.wrap(|line| line.to_string().chars().count() <= 10);
         assert_eq!(lines.iter().map(ToString::to_string).collect::<Vec<_>>(), ["CrankPin–", "Knee = 3,", "RockerPin"]);
+        let text = MathText::from_words("OA = 1; laid out at (1, 0)");
+        let lines = text.wrap(|line| line.to_string().len() <= 21);
+        assert_eq!(lines.iter().map(ToString::to_string).collect::<Vec<_>>(), ["OA = 1;", "laid out at (1, 0)"]);
     }
 }
