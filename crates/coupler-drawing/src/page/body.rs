@@ -34,7 +34,7 @@ impl BodyDrawing {
             let polylines = lines.flat_map(|line| within(&line, &frame)).collect();
             items.push(Item::Path(Path { polylines, stroke: Some(places.stroke(theme)), fill: None }));
             for (at, name) in places.marks.iter().map(|(at, name)| (on_page(at), name)) {
-                if is_within(&at, &frame) {
+                if frame.contains(&at) {
                     items.push(mark_item(at, places.ink(theme), theme));
                     labels.push((vec![at], name.clone()));
                 }
@@ -124,7 +124,7 @@ impl Axes {
 
     /// Whether both ends are in a rectangle.
     fn is_within(&self, frame: &Rect) -> bool {
-        is_within(&self.x, frame) && is_within(&self.y, frame)
+        frame.contains(&self.x) && frame.contains(&self.y)
     }
 
     /// The axes as lines, that of x with an arrowhead, and the body's point as a dot.
@@ -163,13 +163,8 @@ fn is_numbered(number: usize, count: usize) -> bool {
     count <= MOST || [1, count].contains(&number)
 }
 
-fn is_within(p: &Point, frame: &Rect) -> bool {
-    let far = p - frame.corner;
-    (0.0..=frame.size.x).contains(&far.x) && (0.0..=frame.size.y).contains(&far.y)
-}
-
 /// The parts of a polyline within a rectangle: whole segments, for they are short.
 fn within(line: &[Point], frame: &Rect) -> Vec<Polyline> {
-    let parts = line.split(|p| !is_within(p, frame)).filter(|part| part.len() > 1);
+    let parts = line.split(|p| !frame.contains(p)).filter(|part| part.len() > 1);
     parts.map(|part| Polyline { points: part.to_vec(), is_closed: false }).collect()
 }

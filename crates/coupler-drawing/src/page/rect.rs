@@ -14,6 +14,12 @@ impl Rect {
         self.corner + self.size / 2.0
     }
 
+    /// Whether a point is in it.
+    pub fn contains(&self, p: &Point) -> bool {
+        let far = p - self.corner;
+        (0.0..=self.size.x).contains(&far.x) && (0.0..=self.size.y).contains(&far.y)
+    }
+
     /// The scale at which `bounds` fills the rectangle, in millimetres to a unit; 1 if `bounds` is a single point.
     pub fn fit_scale(&self, bounds: Bounds) -> f64 {
         let size = bounds.size();

@@ -59,6 +59,9 @@ struct Key<'a> {
     theme: &'a Theme,
 }
 
+/// How often a key is made smaller for its arrows, which are then longer in it.
+const MOST_FITS: usize = 4;
+
 impl<'a> Key<'a> {
     fn new(
         frame: Rect,
@@ -73,9 +76,7 @@ impl<'a> Key<'a> {
         let point = nearest_point(linkage, shown);
         let on_links = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints);
         let joints = on_links.chain(linkage.pivots()).chain(point.map(|s| s.curve.joint));
-        let joints = joints.map(|joint| mechanism.pose[joint]);
-        let directions = DirectionMarks::new(mechanism, circuit, 0.0);
-        let bounds = Bounds::from_points(joints.chain(directions.points()));
+        let joints: Vec<Point> = joints.map(|joint| mechanism.pose[joint]).collect();
         // Names need space outside the links on all sides.
         let width =
             |label: &LinkLabel| theme.text_line(&label.text, Point::origin(), Anchor::Start, letter, theme.grey);
@@ -83,10 +84,23 @@ impl<'a> Key<'a> {
         let space = Vector::new(widest + 0.8 * letter, 1.3 * letter);
         let inner =
             Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
-        let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
-        let centre = page_from_plane.apply(bounds.centre());
-        let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale();
-        let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(page_from_plane);
+        // Arrows are at least as far from joints as on paper, which needs more space in a small key.
+        let fitted = |least_radius: f64| {
+            let directions = DirectionMarks::new(mechanism, circuit, least_radius);
+            let bounds = Bounds::from_points(joints.iter().copied().chain(directions.points()));
+            let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
+            let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale();
+            let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(page_from_plane);
+            (page_from_plane, page_from_plane.apply(bounds.centre()), least_radius, directions)
+        };
+        let mut fit = fitted(0.0);
+        for _ in 0..MOST_FITS {
+            if fit.3.points().all(|p| frame.contains(&p)) {
+                break;
+            }
+            fit = fitted(fit.2);
+        }
+        let (page_from_plane, centre, _, directions) = fit;
         Key { frame, page, linkage, mechanism, point, page_from_plane, directions, centre, letter, theme }
     }
 
