@@ -45,6 +45,17 @@ fn printed_limits_of_the_input_are_reached() {
     }
 }
 
+/// Next to a dead point an error of a length moves the curve without bounds, to the first order: neither does the band, nor the figure shrink.
+#[test]
+fn tolerances_that_say_nothing_next_to_limits_are_not_drawn() {
+    let [svg, cells] =
+        rendered("[[family]]\nid = \"f\"\nlinkage = \"peaucellier-lipkin\"\ncases = [{}]\ntolerance = 0.02\n");
+    let [worst] = numbers(&rows(&cells)[0], ["tolerance_worst"]);
+    assert!(worst > 1000.0 && svg.contains("lengths ± 0.02 move the curve by more than 18"), "{worst}");
+    // The scale bar of a figure of the path, which is 18 long, and not of the band.
+    assert!(svg.contains(">5</text>") && !svg.contains("00000</text>"));
+}
+
 #[test]
 fn linkages_that_repeat_after_several_turns_say_so() {
     assert!(of_catalogue("geared-five-bar")[0].contains("repeats after 2 turns"));

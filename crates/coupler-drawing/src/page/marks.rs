@@ -65,13 +65,25 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     [parts.join(" · "), straight]
 }
 
+/// The greatest move of a curve that is shown: as large as the curve itself, as next to a limit that an error of a length moves, the first order
+/// says nothing.
+pub(super) fn greatest_shown_move(solved: &SolvedCell, curve: &MeasuredCurve) -> f64 {
+    Bounds::from_points(solved.circuit(curve).points(curve.joint)).size().norm()
+}
+
 /// How far the curves of a cell move in the worst case; `None` without a tolerance.
 fn tolerance_fact(solved: &SolvedCell) -> Option<String> {
     let moves = solved.curves.iter().map(|curve| curve.measure(Measure::TOLERANCE_WORST));
     let most = moves.collect::<Option<Vec<f64>>>()?.into_iter().fold(0.0, f64::max);
     let curves = if solved.curves.len() == 1 { "the curve" } else { "the curves" };
     let tolerance = format_exactly(solved.linkage.tolerance?);
-    Some(format!("lengths ± {tolerance} move {curves} by up to {}", format_with_digits(most, 2)))
+    let shown = solved.curves.iter().map(|curve| greatest_shown_move(solved, curve)).fold(0.0, f64::max);
+    let by = if most > shown {
+        format!("more than {}", format_with_digits(shown, 2))
+    } else {
+        format!("up to {}", format_with_digits(most, 2))
+    };
+    Some(format!("lengths ± {tolerance} move {curves} by {by}"))
 }
 
 /// The part whose length or way is the input.

@@ -1,5 +1,6 @@
 //! The band in which a curve stays where each length of its linkage is off by a tolerance.
 
+use super::marks;
 use super::plot::Plot;
 use super::symbols::{Mark, Symbol};
 use super::theme::Theme;
@@ -25,7 +26,9 @@ fn borders(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<[Point; 2]> {
     let sides = |(place, move_per_unit): &(Point, Vector)| {
         [place + move_per_unit * tolerance, place - move_per_unit * tolerance]
     };
-    moves.worst_along.iter().map(sides).collect()
+    let most = marks::greatest_shown_move(solved, curve);
+    let is_shown = |(_, move_per_unit): &&(Point, Vector)| move_per_unit.norm() * tolerance <= most;
+    moves.worst_along.iter().filter(is_shown).map(sides).collect()
 }
 
 /// What the band of a curve covers.
