@@ -56,6 +56,17 @@ fn tolerances_that_say_nothing_next_to_limits_are_not_drawn() {
     assert!(svg.contains(">5</text>") && !svg.contains("00000</text>"));
 }
 
+/// What varies and has no room under small figures is not missed without a word.
+#[test]
+fn captions_that_are_cut_end_in_an_ellipsis() {
+    let [svg, _] = rendered(
+        "[page]\npaper = { width = \"120 mm\", height = \"200 mm\" }\n[[family]]\nid = \"f\"\nlinkage = \"slider-crank\"\npanels = [8, 7]\n\
+         grid = { crank = [10, 11, 12, 13, 14, 15, 16], offset = [0, 1, 2, 3, 4, 5, 6, 7], coupler = 40 }\n",
+    );
+    assert!(svg.contains("crank = 10"), "{svg}");
+    assert!(svg.matches("…</text>").count() >= 56, "{svg}");
+}
+
 #[test]
 fn linkages_that_repeat_after_several_turns_say_so() {
     assert!(of_catalogue("geared-five-bar")[0].contains("repeats after 2 turns"));

@@ -349,17 +349,25 @@ pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] 
     balanced_grid(contents.size, max_in(contents.size, theme), count.min(MOST), ASPECT_RATIO)
 }
 
-/// Draws the lines under a figure from `top`, as many as fit.
+/// Draws the lines under a figure from `top`, as many as fit; the last of these says by its end that others do not.
 fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
     let mut y = top + 1.5 * theme.caption_size;
-    let mut after_last: Option<f64> = None;
-    for line in lines {
-        y += after_last.map_or(0.0, |after| after.max(leading(&line)));
+    let mut heights = Vec::new();
+    for (k, line) in lines.iter().enumerate() {
+        if k > 0 {
+            y += leading(&lines[k - 1]).max(leading(line));
+        }
         if y > area.size().y {
             break;
         }
-        after_last = Some(leading(&line));
-        area.record(line.moved_to(Point::new(area.size().x / 2.0, y)));
+        heights.push(y);
+    }
+    let is_cut = heights.len() < lines.len();
+    let count = heights.len();
+    for (k, (line, y)) in lines.into_iter().zip(heights).enumerate() {
+        let line = line.moved_to(Point::new(area.size().x / 2.0, y));
+        let is_last = is_cut && k + 1 == count;
+        area.record(if is_last { line.fit_width_with_suffix(" …", area.size().x) } else { line });
     }
 }
 
