@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::fs;
 
 use coupler_curves::catalogue;
+use coupler_curves::expression::displayed_name;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::{Options, Paper, PoseChoice};
 use coupler_drawing::plate;
@@ -62,7 +63,7 @@ impl Description {
 
     /// Where a parameter is in the constructions of the joints: lengths of links, and whole constructions otherwise.
     fn places_of(&self, parameter: &str) -> String {
-        let name = parameter.replace('_', " ");
+        let name = displayed_name(parameter);
         let mut places = Vec::new();
         for [joint, construction] in &self.joints {
             let construction = construction.trim_end_matches("; traced");
@@ -131,7 +132,7 @@ fn value(clause: &str) -> &str {
 
 /// Whether a name is in an expression.
 fn has_name(expression: &str, name: &str) -> bool {
-    let is_part = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
     expression.match_indices(name).any(|(at, _)| {
         !is_part(expression[..at].chars().next_back()) && !is_part(expression[at + name.len()..].chars().next())
     })
