@@ -257,7 +257,8 @@ fn draw_figure(
     let mut placer = LabelPlacer::new(&obstacles, plot.rect_above_scale_bar(theme), theme);
     let number = |s: &ShownCurve| {
         let number = s.curve.trace.to_string();
-        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.8 * theme.note_size, s.text_ink(theme)).text
+        let size = (0.8 * theme.note_size).max(MIN_TEXT_SIZE.min(theme.note_size));
+        theme.text_line(&number, Point::origin(), Anchor::Middle, size, s.text_ink(theme)).text
     };
     let at_points: Vec<(Point, &ShownCurve)> = distinct_points(mechanism, shown, &plot).collect();
     let mut numbers: Vec<Item> =
