@@ -9,7 +9,7 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, PageFinisher, Volume};
 use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::pdf::Book;
-use coupler_drawing::scene::{Item, PageLink, Scene, Text};
+use coupler_drawing::scene::{PageLink, Scene, Shape, Text};
 
 use super::reader::{Contents, Pdf};
 
@@ -243,18 +243,12 @@ fn options(paper: Paper) -> Options {
 
 /// All texts of a page, in order.
 fn texts(scene: &Scene) -> Vec<String> {
-    fn add(items: &[Item], found: &mut Vec<String>) {
-        for item in items {
-            match item {
-                Item::Group(group) => add(&group.items, found),
-                Item::Text(text) => found.push(text.runs.iter().map(|run| run.text.as_str()).collect()),
-                _ => {}
-            }
-        }
-    }
-    let mut found = Vec::new();
-    add(&scene.items, &mut found);
-    found
+    placed_texts(scene).map(|text| text.words()).collect()
+}
+
+/// The texts of a page, with their places.
+fn placed_texts(scene: &Scene) -> impl Iterator<Item = &Text> {
+    scene.shapes().into_iter().filter_map(|shape| if let Shape::Text(text) = shape { Some(text) } else { None })
 }
 
 #[test]
@@ -311,24 +305,11 @@ fn a_small_index_has_the_dimensions_whole_and_its_marks_are_not_cut_off() {
     }
     for (k, mut scene) in back.into_iter().enumerate() {
         PageFinisher::new(&atlas, &volume, 2, &a6).finish(&mut scene, k);
-        let mut marks = Vec::new();
-        placed_texts(&scene.items, &mut marks);
         // The height of letters is beside the baseline of those that are turned, and above that of the folio.
-        let marks = marks.iter().filter(|text| text.words().ends_with("gears"));
+        let marks = placed_texts(&scene).filter(|text| text.words().ends_with("gears"));
         let distances: Vec<f64> =
             marks.map(|text| text.position.x.min(105.0 - text.position.x) - 0.76 * text.size).collect();
         assert!(distances.len() == 3 && distances.iter().all(|distance| *distance > 2.0 - 1e-9), "{distances:?}");
-    }
-}
-
-/// The texts of items.
-fn placed_texts<'s>(items: &'s [Item], found: &mut Vec<&'s Text>) {
-    for item in items {
-        match item {
-            Item::Group(group) => placed_texts(&group.items, found),
-            Item::Text(text) => found.push(text),
-            _ => {}
-        }
     }
 }
 
