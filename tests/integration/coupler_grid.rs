@@ -687,7 +687,7 @@ fn a_change_point_says_what_it_is_and_where() {
     let (solved, pages) = first(&GOOD.replace("[2, 3, 9]", "[3]"));
     assert_eq!(solved.first_curve_values()[0], coupler_curves::measure::Value::Word("change-point"));
     let text = running_text(&pages[0].0);
-    assert!(text.contains("change point all links on one line at 180°: there the motion is not determined"), "{text}");
+    assert!(text.contains("all links on one line at 180°: there the motion is not determined"), "{text}");
     let (_, pages) = first(GOOD);
     assert!(!running_text(&pages[0].0).contains("not determined"));
 }
@@ -800,8 +800,7 @@ fn a_page_on_which_nothing_varies_has_the_title_of_its_family() {
 
 #[test]
 fn the_key_names_both_coordinates_of_a_point_on_small_paper() {
-    let small = ["{ width = \"210 mm\", height = \"148 mm\" }", "{ width = \"105 mm\", height = \"148 mm\" }"];
-    for paper in ["\"tabloid\"", small[0], small[1]] {
+    for paper in ["\"tabloid\"", "\"a5\"", "\"a6\"", "\"a6\"\norientation = \"portrait\""] {
         let text = format!(
             "[atlas]\ntitle = \"T\"\n[page]\npaper = {paper}\n[[family]]\nid = \"f\"\nlinkage = \"hrones-nelson\"\n\
              layout = \"coupler-grid\"\ncases = [{{ A = 2.5, B = 3, C = 2 }}]\n"
@@ -841,4 +840,39 @@ fn names_in_the_key_touch_no_line_on_small_paper() {
             assert!(lines.into_iter().all(|line| !line.points.windows(2).any(touches)), "{}", content(name));
         }
     }
+}
+
+/// A four-bar with long names and an expression for a length, on paper.
+fn long_names(paper: &str) -> String {
+    format!(
+        "[atlas]\ntitle = \"T\"\n[page]\npaper = {paper}\n[[linkage]]\nid = \"l\"\ntrace = [\"M\"]\n\
+         parameters = {{ A = {{ min = 0 }}, coupler_length = {{ min = 0 }} }}\ncaption = \"A = {{A}}\"\n[linkage.joints]\n\
+         O = {{ fixed = [0, 0] }}\nC = {{ fixed = [\"A\", \"A / 2\"] }}\nCrankpin = {{ crank = \"O\", length = 1 }}\n\
+         Knuckle = {{ dyad = [\"Crankpin\", \"C\"], lengths = [\"coupler_length\", \"A / 1.1\"], side = \"left\" }}\n\
+         M = {{ point = [\"Crankpin\", \"Knuckle\"], along = {{ from = 0, to = \"A\", count = 5 }}, across = {{ from = -1, to = 1, count = 2 }} }}\n\
+         [[family]]\nid = \"f\"\nlinkage = \"l\"\nlayout = \"coupler-grid\"\ncases = [{{ A = \"10 / 3\", coupler_length = 3 }}]\n"
+    )
+}
+
+#[test]
+fn all_lengths_are_stated_however_long_the_names_and_small_the_paper() {
+    for paper in ["\"a4\"", "\"a5\"", "\"a6\"", "\"a6\"\norientation = \"portrait\""] {
+        let texts = page_texts(&long_names(paper), "f/f-001.svg");
+        let all = texts.join(" ");
+        for whole in [
+            "crank O–Crankpin: 1",
+            "coupler_length = 3",
+            "rocker C–Knuckle: 100 / 33",
+            "from (0, 0) to (10 / 3, 5 / 3)",
+        ] {
+            assert!(all.contains(whole), "{paper}: {whole}: {all}");
+        }
+        // A coordinate of ten thirds is rounded in the table, and says so.
+        assert!(texts.contains(&"≈ along".to_owned()) && !texts.contains(&"≈ across".to_owned()), "{paper}: {all}");
+        let rows = (1..=10).filter(|k| texts.contains(&k.to_string())).count();
+        assert!(rows == 10 && !all.contains(" more"), "{paper}: {all}");
+    }
+    // The smallest paper says what it leaves out.
+    let smallest = page_texts(&long_names("{ width = \"100 mm\", height = \"100 mm\" }"), "f/f-001.svg").join(" ");
+    assert!(smallest.contains("more lines") && smallest.contains("others: on larger paper"), "{smallest}");
 }

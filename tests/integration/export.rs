@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use coupler_curves::catalogue;
 use coupler_curves::geometry::trig;
 use tempfile::TempDir;
 
@@ -385,6 +386,32 @@ fn json_has_the_same_numbers_as_the_tables() {
         }
     }
     assert!(compared > 900, "{compared}");
+}
+
+#[test]
+fn json_of_every_linkage_reads_back_with_a_side_for_each_dyad() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut manifest = "[atlas]\ntitle = \"T\"\n".to_owned();
+    for template in catalogue::all() {
+        let page = printed(folder.path(), &["list", "linkages", &template.id]);
+        manifest.push_str(page.split_once("a family to start from\n").unwrap().1);
+    }
+    fs::write(folder.path().join("atlas.toml"), &manifest).unwrap();
+    printed(folder.path(), &["export", "--format", "json", "-o", "exported"]);
+    let mut linkages = BTreeMap::new();
+    for entry in fs::read_dir(folder.path().join("exported")).unwrap() {
+        let path = entry.unwrap().path();
+        let text = fs::read_to_string(&path).unwrap();
+        let value: serde_json::Value =
+            serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let columns = value["columns"].as_array().unwrap();
+        let further = columns.iter().filter(|name| name.as_str().unwrap().starts_with("branch_")).count();
+        let branches = value["circuits"][0]["passes"][0]["branches"].as_array().unwrap();
+        assert!(further == 0 || branches.len() == further + 1, "{}: {branches:?}", path.display());
+        linkages.insert(value["linkage"].as_str().unwrap().to_owned(), further);
+    }
+    assert_eq!(linkages.len(), catalogue::all().len());
+    assert!(linkages.values().filter(|further| **further > 0).count() >= 15, "{linkages:?}");
 }
 
 #[test]

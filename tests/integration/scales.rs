@@ -121,6 +121,7 @@ fn papers_are_named_in_any_case_and_turned() {
     for (page, [width, height]) in [
         ("paper = \"A4\"", ["297", "210"]),
         ("paper = \"A4\"\norientation = \"portrait\"", ["210", "297"]),
+        ("paper = \"A6\"", ["148", "105"]),
         ("paper = \"Letter\"\norientation = \"landscape\"", ["279.4", "215.9"]),
         ("paper = { width = \"100 mm\", height = \"200 mm\" }\norientation = \"landscape\"", ["200", "100"]),
         ("orientation = \"portrait\"", ["279.4", "431.8"]),

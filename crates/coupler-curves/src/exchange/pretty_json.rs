@@ -66,6 +66,15 @@ impl Layout {
     }
 }
 
+macro_rules! integers {
+    ($($method:ident: $integer:ty,)*) => {
+        $(fn $method<W: ?Sized + Write>(&mut self, writer: &mut W, value: $integer) -> io::Result<()> {
+            self.plain(writer)?;
+            write!(writer, "{value}")
+        })*
+    };
+}
+
 impl Formatter for Layout {
     fn write_null<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
         self.plain(writer)?;
@@ -77,9 +86,14 @@ impl Formatter for Layout {
         writer.write_all(if value { b"true" } else { b"false" })
     }
 
-    fn write_u64<W: ?Sized + Write>(&mut self, writer: &mut W, value: u64) -> io::Result<()> {
-        self.plain(writer)?;
-        write!(writer, "{value}")
+    // Each type of integers has a method of its own, and the default of each writes no separator.
+    integers! {
+        write_i8: i8, write_i16: i16, write_i32: i32, write_i64: i64, write_i128: i128,
+        write_u8: u8, write_u16: u16, write_u32: u32, write_u64: u64, write_u128: u128,
+    }
+
+    fn write_f32<W: ?Sized + Write>(&mut self, writer: &mut W, value: f32) -> io::Result<()> {
+        self.write_f64(writer, value.into())
     }
 
     fn write_f64<W: ?Sized + Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
@@ -142,6 +156,7 @@ mod tests {
         quoted: &'static str,
         empty: [f64; 0],
         rows: Vec<(f64, f64, bool, Option<u64>)>,
+        integers: (i8, i32, u8, i64, f32),
         objects: [Member; 2],
     }
 
@@ -158,6 +173,7 @@ mod tests {
             quoted: "a\nb",
             empty: [],
             rows: vec![(1.0, -0.0, true, None), (1e300, 2.5, false, Some(7))],
+            integers: (-1, 2, 3, -4, 0.5),
             objects: [Member { words: ["a", "b"] }, Member { words: ["c", "d"] }],
         };
         let text = to_pretty_string(&value).unwrap();
@@ -170,6 +186,7 @@ mod tests {
     [1, 0, true, null],
     [1e300, 2.5, false, 7]
   ],
+  "integers": [-1, 2, 3, -4, 0.5],
   "objects": [
     {
       "words": ["a", "b"]

@@ -291,10 +291,8 @@ impl KeyLines {
             true => self.rows.len() + 1 - self.capacity(),
             false => 0,
         };
-        let short = format!("… and {left_out} more lines");
         let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.ink);
-        let whole = line(&format!("{short}, for which this page is too small"));
-        let rest = if whole.text.width() <= self.width { whole } else { line(&short) };
+        let rest = line(&left_out_lines(left_out, |text| line(text).text.width() <= self.width));
         let rest = (left_out > 0).then_some((None, rest, 0.0));
         let shown = self.rows.len() - left_out;
         for (k, (name, text, indent)) in self.rows[..shown].iter().chain(&rest).enumerate() {
@@ -308,6 +306,13 @@ impl KeyLines {
             }
         }
     }
+}
+
+/// What is said in place of the last line where some do not fit.
+pub(super) fn left_out_lines(count: usize, fits: impl Fn(&str) -> bool) -> String {
+    let short = format!("… and {count} more lines");
+    let whole = format!("{short}, for which this page is too small");
+    if fits(&whole) { whole } else { short }
 }
 
 /// Draws a linkage in its pose on a circuit with the names of its joints, the direction of the crank and the output; `ink` is the

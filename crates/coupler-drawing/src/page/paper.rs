@@ -11,7 +11,7 @@ pub struct Paper {
 
 impl Paper {
     /// The papers that have a name, all in landscape format.
-    pub const NAMED: [(&'static str, Paper); 7] = [
+    pub const NAMED: [(&'static str, Paper); 9] = [
         ("letter", Paper { width: 279.4, height: 215.9 }),
         ("tabloid", Paper { width: 431.8, height: 279.4 }),
         ("a4", Paper { width: 297.0, height: 210.0 }),
@@ -19,6 +19,8 @@ impl Paper {
         ("a2", Paper { width: 594.0, height: 420.0 }),
         ("a1", Paper { width: 841.0, height: 594.0 }),
         ("a0", Paper { width: 1189.0, height: 841.0 }),
+        ("a5", Paper { width: 210.0, height: 148.0 }),
+        ("a6", Paper { width: 148.0, height: 105.0 }),
     ];
 
     /// The paper with its longer side as its height, or as its width.

@@ -3,7 +3,7 @@
 use super::super::CouplerGridPage;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
-use super::numbers::{coordinate_decimals, significant_decimals};
+use super::numbers::{coordinate_decimals, is_rounded, significant_decimals};
 use super::shown_curve::ShownCurve;
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
@@ -152,10 +152,12 @@ fn groups_of_curves(page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme)
         false => s.curve.trace.to_string(),
     };
     let coordinates: Vec<Option<[f64; 2]>> = shown.iter().map(|s| coordinates_of(page, s)).collect();
-    let coordinate = |k: usize| {
+    let coordinate = |k: usize, [exact, rounded]: [&'static str; 2]| {
         let values: Vec<f64> = coordinates.iter().flatten().map(|pair| pair[k]).collect();
         let decimals = coordinate_decimals(&values);
-        coordinates.iter().map(|pair| pair.map_or(String::new(), |pair| format_fixed(pair[k], decimals))).collect()
+        let head = if values.iter().any(|value| is_rounded(*value, decimals)) { rounded } else { exact };
+        let text = |pair: [f64; 2]| format_fixed(pair[k], decimals);
+        (head, coordinates.iter().map(|pair| pair.map_or(String::new(), text)).collect())
     };
     let lengths = |key: MeasureKey<f64>| -> Vec<String> {
         let values: Vec<Option<f64>> = shown.iter().map(|s| finite(s.curve, key)).collect();
@@ -176,7 +178,7 @@ fn groups_of_curves(page: &CouplerGridPage, shown: &[ShownCurve], theme: &Theme)
     };
     [
         ColumnGroup::new("", [("point", shown.iter().map(number).collect())], theme),
-        ColumnGroup::new("", [("along", coordinate(0)), ("across", coordinate(1))], theme),
+        ColumnGroup::new("", [coordinate(0, ["along", "≈ along"]), coordinate(1, ["across", "≈ across"])], theme),
         ColumnGroup::new(
             straight_title(page.straight_criterion),
             [

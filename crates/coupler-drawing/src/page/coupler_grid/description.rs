@@ -1,6 +1,7 @@
 //! The description of the linkage, next to its key: its class, every length in full, its output.
 
 use super::super::area::Area;
+use super::super::key::Key;
 use super::super::key_drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
@@ -11,9 +12,10 @@ use super::turn::change_point_inputs;
 use crate::scene::{Anchor, Color};
 use coupler_curves::expression::join_names;
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, Linkage, OutputLink};
+use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
+use coupler_curves::text::format_in_full;
 
 /// The description of the linkage of a page: lines, and the lines of its key, if it has one.
 pub(super) struct Description {
@@ -28,7 +30,7 @@ const LEADING: f64 = 1.45;
 
 impl Description {
     /// The description for a width.
-    pub fn new(page: &CouplerGridPage, width: f64, theme: &Theme) -> Description {
+    pub fn new(page: &CouplerGridPage, key: Option<&Key>, width: f64, theme: &Theme) -> Description {
         let em = theme.note_size;
         let solved = page.panel.solved_cell;
         let class = FourBar::from_linkage(&solved.linkage).map(FourBar::class);
@@ -39,17 +41,17 @@ impl Description {
             lines.push((name.to_owned(), size * em, theme.ink));
         }
         let mut texts = Vec::new();
+        if key.is_none() {
+            texts.extend(dimensions(&solved.linkage, page.labels));
+        }
         if class == Some(FourBarClass::ChangePoint) {
             texts.push(change_point_note(solved));
-        }
-        if page.key.is_none() {
-            texts.extend(dimensions(&solved.linkage, page.labels));
         }
         texts.extend(output_facts(solved));
         let wrapped = |text: &String| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(width);
         lines.extend(texts.iter().flat_map(wrapped).map(|text| (text, em, theme.grey)));
         let key_height =
-            page.key.map_or(0.0, |key| 0.5 * em + key_drawing::lines_height(width, &key.dimensions, key, theme));
+            key.map_or(0.0, |key| 0.5 * em + key_drawing::lines_height(width, &key.dimensions, key, theme));
         Description { lines, key_height }
     }
 
@@ -58,19 +60,24 @@ impl Description {
         self.key_height + self.lines.iter().map(|(_, size, _)| LEADING * size).sum::<f64>()
     }
 
-    /// Draws the description in a frame, as many lines as fit.
-    pub fn draw(&self, area: &impl Area, frame: Rect, page: &CouplerGridPage, theme: &Theme) {
+    /// Draws the description in a frame, as many lines as fit, and how many do not.
+    pub fn draw(&self, area: &impl Area, frame: Rect, page: &CouplerGridPage, key: Option<&Key>, theme: &Theme) {
         let mut y = frame.corner.y;
-        let bottom = frame.corner.y + frame.size.y;
-        for (text, size, color) in &self.lines {
+        let bottom = frame.corner.y + frame.size.y * (1.0 + 1e-9);
+        for (k, (text, size, color)) in self.lines.iter().enumerate() {
             y += LEADING * size;
-            if y <= bottom {
-                let at = Point::new(frame.corner.x, y);
-                let line = theme.text_line(text, at, Anchor::Start, *size, *color).with_italics(page.heading.symbols);
-                area.record(line.fit_width(frame.size.x));
+            let line = |text: &str| {
+                let line = theme.text_line(text, Point::new(frame.corner.x, y), Anchor::Start, *size, *color);
+                line.with_italics(page.heading.symbols)
+            };
+            if self.lines.get(k + 1).is_some_and(|(_, next, _)| y + LEADING * next > bottom) {
+                let fits = |text: &str| line(text).text.width() <= frame.size.x;
+                area.record(line(&key_drawing::left_out_lines(self.lines.len() - k, fits)).fit_width(frame.size.x));
+                break;
             }
+            area.record(line(text).fit_width(frame.size.x));
         }
-        if let Some(key) = page.key {
+        if let Some(key) = key {
             let corner = Point::new(frame.corner.x, y + 0.5 * theme.note_size);
             let rest = Rect { corner, size: frame.corner + frame.size - corner };
             key_drawing::draw_lines(area, rest, &key.dimensions, key, theme);
@@ -89,20 +96,36 @@ fn change_point_note(solved: &SolvedCell) -> String {
     format!("all links on one line{place}: there the motion is not determined; as drawn, {choice}")
 }
 
-/// A line for each link with a name: what it is, its joints, its length in full.
+/// A line for each link of a four-bar: what it is, its joints, its length in full with its name, and the direction of a frame that is
+/// not along the x-axis.
 fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
+    let Some([o, a, b, c]) = FourBar::pins(linkage) else { return Vec::new() };
     let output = output_joints(linkage);
-    let line = |label: &LinkLabel| {
-        let [from, to] = label.joints;
-        let names = join_names(&label.joints.map(|joint| linkage.joints[joint].name.as_str()));
-        // All digits that are needed to read back the same number.
-        let length = length(linkage, [from, to])?.to_string();
-        let length = if label.text == length { length } else { format!("{} = {length}", label.text) };
-        let role = role(linkage, [from, to]).map_or(String::new(), |role| format!("{role} "));
-        let is_output = output.is_some_and(|output| is_same([from, to], output));
-        Some(format!("{role}{names}: {length}{}", if is_output { ", the output" } else { "" }))
+    let line = |(role, joints): (&str, [JointId; 2])| {
+        let names = join_names(&joints.map(|joint| linkage.joints[joint].name.as_str()));
+        let length = format_in_full(length(linkage, joints)?);
+        let label = labels.iter().find(|label| is_same(label.joints, joints)).map(|label| label.text.as_str());
+        let is_named = label.is_some_and(|label| label.parse::<f64>().is_err());
+        let named = label.filter(|_| is_named).map_or(String::new(), |label| format!("{label} = "));
+        let is_output = output.is_some_and(|output| is_same(joints, output));
+        let ends = if joints == [o, c] { slanted_ends(linkage, joints) } else { None };
+        let ends = ends.unwrap_or_default();
+        Some(format!("{role} {names}: {named}{length}{ends}{}", if is_output { ", the output" } else { "" }))
     };
-    labels.iter().filter_map(line).collect()
+    [("frame", [o, c]), ("crank", [o, a]), ("coupler", [a, b]), ("rocker", [c, b])]
+        .into_iter()
+        .filter_map(line)
+        .collect()
+}
+
+/// Where the ends of a frame are that is not along the x-axis.
+fn slanted_ends(linkage: &Linkage, joints: [JointId; 2]) -> Option<String> {
+    let [JointKind::Fixed(from), JointKind::Fixed(to)] = joints.map(|joint| &linkage.joints[joint].kind) else {
+        return None;
+    };
+    let coordinates = |at: &Point| [at.x, at.y].map(format_in_full).join(", ");
+    let is_slanted = linkage.seen_from.is_none() && (from.y != to.y || from.x > to.x);
+    is_slanted.then(|| format!(", from ({}) to ({})", coordinates(from), coordinates(to)))
 }
 
 fn is_same([a, b]: [JointId; 2], other: [JointId; 2]) -> bool {
@@ -120,13 +143,6 @@ fn output_joints(linkage: &Linkage) -> Option<[JointId; 2]> {
 /// The distance of two joints of a link.
 fn length(linkage: &Linkage, [from, to]: [JointId; 2]) -> Option<f64> {
     linkage.links.iter().find_map(|link| Some((link.position(to)? - link.position(from)?).norm()))
-}
-
-/// What a link of a four-bar is called.
-fn role(linkage: &Linkage, joints: [JointId; 2]) -> Option<&'static str> {
-    let [o, a, b, c] = FourBar::pins(linkage)?;
-    let roles = [([o, a], "crank"), ([a, b], "coupler"), ([c, b], "rocker"), ([o, c], "frame")];
-    roles.into_iter().find(|(pins, _)| is_same(joints, *pins)).map(|(_, role)| role)
 }
 
 /// The swing or stroke of the output, and its time ratio, if they are measured.

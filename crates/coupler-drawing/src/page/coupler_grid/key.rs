@@ -42,6 +42,20 @@ pub(super) fn draw(
     area.record(Drawing { class: "key", title: String::new(), items });
 }
 
+/// The font size of names, in ems of a note, and the greatest width of one as a part of the key. The roles of links in the description,
+/// with the joints at their ends, say what has no name here.
+const LETTER: f64 = 1.1;
+const MAX_NAME_PART: f64 = 0.3;
+
+fn name_width(name: &str, theme: &Theme) -> f64 {
+    let size = LETTER * theme.note_size;
+    theme.text_line(name, Point::origin(), Anchor::Start, size, theme.grey).text.width()
+}
+
+fn is_short(width: f64, frame: Rect) -> bool {
+    width <= MAX_NAME_PART * frame.size.x
+}
+
 struct Key<'a> {
     frame: Rect,
     page: &'a CouplerGridPage<'a>,
@@ -59,6 +73,16 @@ struct Key<'a> {
     theme: &'a Theme,
 }
 
+/// A key at a size.
+struct Fit {
+    page_from_plane: Similarity,
+    /// The middle of the linkage on the page.
+    centre: Point,
+    /// The least radius of arrows in the plane.
+    least_radius: f64,
+    directions: DirectionMarks,
+}
+
 /// How often a key is made smaller for its arrows, which are then longer in it.
 const MOST_FITS: usize = 4;
 
@@ -72,15 +96,15 @@ impl<'a> Key<'a> {
     ) -> Key<'a> {
         let linkage = &page.panel.solved_cell.linkage;
         let circuit = &page.panel.solved_cell.motion.circuits[shown.first().map_or(0, |s| s.curve.circuit - 1)];
-        let letter = 1.1 * theme.note_size;
+        let letter = LETTER * theme.note_size;
         let point = nearest_point(linkage, shown);
         let on_links = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints);
         let joints = on_links.chain(linkage.pivots()).chain(point.map(|s| s.curve.joint));
         let joints: Vec<Point> = joints.map(|joint| mechanism.pose[joint]).collect();
         // Names need space outside the links on all sides.
-        let width =
-            |label: &LinkLabel| theme.text_line(&label.text, Point::origin(), Anchor::Start, letter, theme.grey);
-        let widest = page.labels.iter().map(|label| width(label).text.width()).fold(letter, f64::max);
+        let widths =
+            page.labels.iter().map(|label| name_width(&label.text, theme)).filter(|&width| is_short(width, frame));
+        let widest = widths.fold(letter, f64::max);
         let space = Vector::new(widest + 0.8 * letter, 1.3 * letter);
         let inner =
             Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
@@ -91,16 +115,16 @@ impl<'a> Key<'a> {
             let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
             let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale();
             let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(page_from_plane);
-            (page_from_plane, page_from_plane.apply(bounds.centre()), least_radius, directions)
+            Fit { page_from_plane, centre: page_from_plane.apply(bounds.centre()), least_radius, directions }
         };
         let mut fit = fitted(0.0);
         for _ in 0..MOST_FITS {
-            if fit.3.points().all(|p| frame.contains(&p)) {
+            if fit.directions.points().all(|p| frame.contains(&p)) {
                 break;
             }
-            fit = fitted(fit.2);
+            fit = fitted(fit.least_radius);
         }
-        let (page_from_plane, centre, _, directions) = fit;
+        let Fit { page_from_plane, centre, directions, .. } = fit;
         Key { frame, page, linkage, mechanism, point, page_from_plane, directions, centre, letter, theme }
     }
 
@@ -195,7 +219,8 @@ impl<'a> Key<'a> {
         let is_fixed = |joint: &JointId| self.linkage.ground().position(*joint).is_some();
         // On the frame, only a label between two pivots names a link.
         let is_link = |label: &&LinkLabel| {
-            !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end))
+            (!label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end)))
+                && is_short(name_width(&label.text, self.theme), self.frame)
         };
         let links = self.page.labels.iter().filter(is_link);
         let mut names: Vec<(&str, [Point; 2], Option<Point>)> =
@@ -244,9 +269,11 @@ impl<'a> Key<'a> {
         let theme = self.theme;
         let text =
             |name: &str, color: Color| theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, color).text;
-        let joints = self.named_joints().into_iter();
+        let name = |joint: JointId| self.linkage.joints[joint].name.as_str();
+        let has_name = |joint: &JointId| is_short(name_width(name(*joint), theme), self.frame);
+        let joints = self.named_joints().into_iter().filter(has_name);
         let mut labels: Vec<(Point, Text)> =
-            joints.map(|joint| (self.at(joint), text(&self.linkage.joints[joint].name, theme.ink))).collect();
+            joints.map(|joint| (self.at(joint), text(name(joint), theme.ink))).collect();
         labels
             .extend(self.point.map(|s| (self.at(s.curve.joint), text(&s.curve.trace.to_string(), s.text_ink(theme)))));
         let zero = self.directions.zero_end();

@@ -2,7 +2,8 @@
 //!
 //! All pages of a cell show the same pose, each at the largest scale at which linkage and curves fit the frame. To the
 //! right of the figure, or below it on upright paper, is a panel: the key with the lengths of all links, a table of the
-//! points with a graph of the speed of each, the transmission angle on the same axis, and notes.
+//! points with a graph of the speed of each, the transmission angle on the same axis, and notes; and below it, or on
+//! small paper below both, the symbols of the figure and the source.
 
 mod columns;
 mod description;
@@ -13,6 +14,7 @@ mod key;
 mod layout;
 mod notes;
 mod numbers;
+mod panel;
 mod shown_curve;
 mod table;
 mod turn;
@@ -21,7 +23,6 @@ use super::area::{self, Area};
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
-use super::key_drawing;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -36,22 +37,18 @@ use crate::scene::{Anchor, Circle, Group, Item, MIN_TEXT_SIZE, Path, Scene};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use description::Description;
-use graphs::Graphs;
-use layout::{PageLayout, PanelLayout};
-use notes::Notes;
+use layout::PageLayout;
+use panel::PanelContents;
 use shown_curve::ShownCurve;
-use table::Table;
 
 pub(super) use columns::MEASURES;
 
 /// Composes a page; the result is the greatest scale at which its linkage fits, in millimetres to a unit.
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
     let size = Vector::new(scene.width, scene.height);
-    let most = most_lettering(size);
-    let theme = &with_legible_notes(theme, MIN_TEXT_SIZE, most);
+    let theme = &with_legible_notes(theme, MIN_TEXT_SIZE);
     let small = Theme { note_size: PANEL_LETTERING * theme.note_size, ..theme.clone() };
-    let panel_theme = &with_legible_notes(&small, MIN_TEXT_SIZE, most);
+    let panel_theme = &with_legible_notes(&small, MIN_TEXT_SIZE);
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let foot = footer::draw(&root, page, theme);
@@ -59,23 +56,38 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, size.y - edge - foot) };
     let solved = page.panel.solved_cell;
     let shown = shown_curves(solved, &page.curve_indices);
-    let panel_height = |width: f64| {
-        let symbols = page_symbols(page, &shown, page.scale.fixed(), options, theme);
-        PanelLayout::least_height(shown.len(), panel_theme)
-            + footer::symbols_height(&symbols, width, panel_theme)
-            + footer::source_height(page, width, panel_theme)
+    let contents = PanelContents::new(page, PageLayout::panel_width(whole.size, panel_theme), &shown, panel_theme);
+    let least_height = contents.least_height(panel_theme);
+    let all_symbols = page_symbols(page, &shown, page.scale.fixed(), options, theme);
+    let foot_height = |symbols: &[Symbol], width: f64| {
+        footer::symbols_height(symbols, width, panel_theme) + footer::source_height(page, width, panel_theme)
     };
-    let PageLayout { figure, panel } = PageLayout::new(whole, panel_height, panel_theme);
-    let panel = footer::draw_source(&root, panel, page, panel_theme);
+    let needed = least_height + foot_height(&all_symbols, contents.width);
+    let PageLayout { figure, panel } = PageLayout::new(whole, needed, panel_theme);
+    // Where the panel is too short, its foot is below the figure too, in fewer lines; and where this is not enough, with fewer symbols.
+    let is_short = contents.width < whole.size.x && needed > panel.size.y;
+    let is_too_short = is_short && least_height + foot_height(&all_symbols, whole.size.x) > whole.size.y;
+    let symbols = |scale| match page_symbols(page, &shown, scale, options, theme) {
+        all if is_too_short => most_needed(all),
+        all => all,
+    };
+    let (figure, panel, foot) = if is_short {
+        let foot_height = foot_height(&symbols(page.scale.fixed()), whole.size.x);
+        let above = Rect { size: whole.size - Vector::new(0.0, foot_height), ..whole };
+        let PageLayout { figure, panel } = PageLayout::new(above, least_height, panel_theme);
+        (figure, Some(panel), whole)
+    } else {
+        (figure, None, panel)
+    };
+    let foot = footer::draw_source(&root, foot, page, panel_theme);
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
-            let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
+            let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART);
             let (plot, fitting) = draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
             // A scale that is common to all pages is stated as it is on this one.
             let scale = page.scale.fixed().map(|_| plot.page_from_plane.scale());
-            let symbols = page_symbols(page, &shown, scale, options, theme);
-            let panel = footer::draw_symbols(&root, panel, &symbols, panel_theme);
-            draw_panel(&root, panel, page, &mechanism, &shown, panel_theme);
+            let above = footer::draw_symbols(&root, foot, &symbols(scale), panel_theme);
+            contents.draw(&root, panel.unwrap_or(above), &mechanism, panel_theme);
             fitting
         }
         None => {
@@ -88,19 +100,9 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
 /// The font size in the panel relative to that of notes: the table is wide.
 const PANEL_LETTERING: f64 = 0.84;
 
-/// The least height of a page in ems of a note, and the least width of the panel: on smaller paper the letters are
-/// smaller.
-const MIN_LINES: f64 = 70.0;
-const MIN_PANEL_WIDTH: f64 = 22.0;
-
-/// The greatest font size of notes with which the panel has space for its contents.
-fn most_lettering(paper: Vector) -> f64 {
-    (PageLayout::max_panel_width(paper) / MIN_PANEL_WIDTH).min(paper.y / MIN_LINES)
-}
-
-/// The theme with notes of at least a size, or of `most` if that is less.
-fn with_legible_notes(theme: &Theme, least: f64, most: f64) -> Theme {
-    let note = theme.note_size.max(least.min(most));
+/// The theme with notes of at least a size.
+fn with_legible_notes(theme: &Theme, least: f64) -> Theme {
+    let note = theme.note_size.max(least);
     Theme { note_size: note, source_size: theme.source_size.max(note), ..theme.clone() }
 }
 
@@ -150,66 +152,11 @@ fn page_symbols(
     symbols
 }
 
-/// Draws the panel: key and description, table and graphs, transmission angle and notes.
-fn draw_panel(
-    area: &impl Area,
-    panel: Rect,
-    page: &CouplerGridPage,
-    mechanism: &PosedMechanism,
-    shown: &[ShownCurve],
-    theme: &Theme,
-) {
-    let em = theme.note_size;
-    let table = Table::new(page, panel.size.x, theme);
-    let graphs = table.graph_left().map(|left| (left, Graphs::new(page.panel.solved_cell, shown)));
-    let strip_left = graphs.as_ref().filter(|(_, graphs)| graphs.transmission.is_some()).map(|(left, _)| *left);
-    let notes_width = strip_left.map_or(panel.size.x, |left| left - (graphs::NUMBERS_WIDTH + 1.0) * em);
-    let notes = Notes::new(page, shown, (&table, graphs.as_ref().map(|(_, graphs)| graphs)), notes_width, theme);
-    let strip_height = strip_left.map_or(0.0, |_| layout::STRIP_HEIGHT * em);
-    let half_width = 0.5 * panel.size.x;
-    let description = Description::new(page, half_width - em, theme);
-    let heights = [description.height(), notes.height(theme).max(strip_height)];
-    let parts = PanelLayout::new(panel, shown.len(), heights, theme);
-
-    let key_width = half_width.min(1.8 * parts.key.size.y);
-    let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
-    match page.key {
-        None => {
-            let group = Group::figure("key", "Key: the linkage with the names and lengths of its links");
-            area.grouped(group, || key::draw(area, key, page, mechanism, shown, theme));
-        }
-        Some(of_linkage) => {
-            let solved = page.panel.solved_cell;
-            let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
-            let lettering = Theme { caption_size: 1.1 * em, ..theme.clone() };
-            let ink = |_| theme.ink;
-            key_drawing::draw_linkage(
-                area,
-                key,
-                (mechanism, of_linkage),
-                &solved.motion.circuits[circuit],
-                ink,
-                &lettering,
-            );
-        }
-    }
-    let after_key = Vector::new(key_width + em, 0.0);
-    let frame = Rect { corner: parts.key.corner + after_key, size: parts.key.size - after_key };
-    description.draw(area, frame, page, theme);
-
-    let rows = table.draw(area, parts.table, parts.row_height, shown, theme);
-    if let Some((left, graphs)) = &graphs {
-        let strip = Rect {
-            corner: parts.foot.corner + Vector::new(*left, 0.5 * em),
-            size: Vector::new(panel.size.x - left, (parts.foot.size.y - em).max(0.0)),
-        };
-        let group =
-            Group::figure("graphs", "Graphs over the input: the speed of each point, and the transmission angle");
-        let strip = (parts.foot.size.y >= strip_height).then_some(strip);
-        area.grouped(group, || graphs.draw(area, &rows, strip, shown, theme));
-    }
-    let notes_frame = Rect { size: Vector::new(notes_width, parts.foot.size.y), ..parts.foot };
-    notes.draw(area, notes_frame, page, theme);
+/// The symbols without which no measure can be taken from a page, and that there are others.
+fn most_needed(symbols: Vec<Symbol>) -> Vec<Symbol> {
+    let is_needed = |symbol: &Symbol| matches!(symbol.mark, Mark::Dashes(_) | Mark::ScaleBar);
+    let others = Symbol { mark: Mark::Letter("…"), meaning: "others: on larger paper".to_owned() };
+    symbols.into_iter().filter(is_needed).chain([others]).collect()
 }
 
 /// Draws the curves and the linkage; returns where they are, and the greatest scale at which they fit.

@@ -8,7 +8,7 @@ use super::super::theme::Theme;
 use super::super::typography::format_fixed;
 use super::columns::{DWELL_TITLE, coordinates_of, percent, straight_title};
 use super::graphs::{Graphs, POOR_TRANSMISSION};
-use super::numbers::coordinate_decimals;
+use super::numbers::{coordinate_decimals, is_rounded};
 use super::shown_curve::ShownCurve;
 use super::table::Table;
 use crate::scene::Anchor;
@@ -17,7 +17,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, JointId, JointKind};
 use coupler_curves::measure::StraightCriterion;
 use coupler_curves::solve::SolvedCell;
-use coupler_curves::text::{exact_decimals, format_in_full};
+use coupler_curves::text::format_in_full;
 
 /// The distance of lines, in ems.
 const LEADING: f64 = 1.4;
@@ -25,7 +25,7 @@ const LEADING: f64 = 1.4;
 /// The space before a note, in ems.
 const NOTE_GAP: f64 = 0.3;
 
-/// The notes of a page, wrapped to a width.
+/// The notes of a page, wrapped to a width: those on the table before those on the graphs, which explain themselves better.
 pub(super) struct Notes {
     /// The lines of each note.
     notes: Vec<Vec<String>>,
@@ -42,15 +42,6 @@ impl Notes {
     ) -> Notes {
         let solved = page.panel.solved_cell;
         let mut notes = Vec::new();
-        if let Some(graphs) = graphs {
-            notes.extend(transmission_note(graphs));
-            notes.push(match solved.linkage.input() {
-                Input::Length => format!("speed: of the point, relative to that of the {}", driver(&solved.linkage)),
-                Input::Angle { .. } => {
-                    "speed: of the point per radian of input, in crank lengths: that of the crank pin is 1".to_owned()
-                }
-            });
-        }
         notes.extend(coordinates_note(page, shown));
         // A second group is to another tolerance, with the same meaning.
         let criteria = [page.straight_criterion, StraightCriterion::Tolerance(0.01)];
@@ -63,6 +54,15 @@ impl Notes {
                     .to_owned(),
             );
         }
+        if let Some(graphs) = graphs {
+            notes.extend(transmission_note(graphs));
+            notes.push(match solved.linkage.input() {
+                Input::Length => format!("speed: of the point, relative to that of the {}", driver(&solved.linkage)),
+                Input::Angle { .. } => {
+                    "speed: of the point per radian of input, in crank lengths: that of the crank pin is 1".to_owned()
+                }
+            });
+        }
         Notes { notes: notes.iter().map(|note| text_line(note, Point::origin(), theme).wrap(width)).collect() }
     }
 
@@ -72,17 +72,19 @@ impl Notes {
         theme.note_size * (LEADING * lines as f64 + NOTE_GAP * self.notes.len() as f64)
     }
 
-    /// Draws the notes at the head of a frame, as many lines as fit.
+    /// Draws the notes at the head of a frame, as many as fit whole.
     pub fn draw(&self, area: &impl Area, frame: Rect, page: &CouplerGridPage, theme: &Theme) {
         let bottom = frame.corner.y + frame.size.y * (1.0 + 1e-9);
+        let step = LEADING * theme.note_size;
         let mut at = frame.corner;
         for note in &self.notes {
             at.y += NOTE_GAP * theme.note_size;
+            if at.y + step * note.len() as f64 > bottom {
+                break;
+            }
             for line in note {
-                at.y += LEADING * theme.note_size;
-                if at.y <= bottom {
-                    area.record(text_line(line, at, theme).with_italics(page.heading.symbols).fit_width(frame.size.x));
-                }
+                at.y += step;
+                area.record(text_line(line, at, theme).with_italics(page.heading.symbols).fit_width(frame.size.x));
             }
         }
     }
@@ -138,9 +140,8 @@ fn coordinates_note(page: &CouplerGridPage, shown: &[ShownCurve]) -> Option<Stri
 fn rounded_in_full(values: impl Iterator<Item = f64>) -> Vec<String> {
     let values: Vec<f64> = values.collect();
     let decimals = coordinate_decimals(&values);
-    let is_rounded = |value: &f64| exact_decimals(*value).is_none_or(|exact| exact > decimals);
     let mut texts: Vec<String> = Vec::new();
-    for text in values.iter().copied().filter(is_rounded).map(format_in_full) {
+    for text in values.iter().copied().filter(|value| is_rounded(*value, decimals)).map(format_in_full) {
         if !texts.contains(&text) {
             texts.push(text);
         }

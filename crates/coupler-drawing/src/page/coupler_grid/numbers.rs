@@ -29,6 +29,11 @@ pub(super) fn coordinate_decimals(values: &[f64]) -> usize {
     decimals
 }
 
+/// Whether a number with some decimals is not the number in full.
+pub(super) fn is_rounded(value: f64, decimals: usize) -> bool {
+    exact_decimals(value).is_none_or(|exact| exact > decimals)
+}
+
 /// The decimals with which the greatest of some magnitudes has `digits` significant digits, at most twice as many.
 pub(super) fn significant_decimals(values: impl Iterator<Item = f64>, digits: usize) -> usize {
     let greatest = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max);

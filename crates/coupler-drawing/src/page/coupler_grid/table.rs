@@ -7,7 +7,6 @@ use super::super::element::Drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::columns::{ColumnGroup, column_groups, fitting_columns};
-use super::layout::HEAD_HEIGHT;
 use super::shown_curve::ShownCurve;
 use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Point, Vector};
@@ -18,7 +17,13 @@ pub(super) struct Table {
     groups: Vec<(f64, ColumnGroup)>,
     /// The left edge of the graphs, relative to that of the table; `None` if there is no space for them.
     graph_left: Option<f64>,
+    row_count: usize,
 }
+
+/// The heights of the heads, in two lines or one, of the numbers under the graphs, and of a row at least, in ems of a note.
+const HEAD_HEIGHTS: [f64; 2] = [3.6, 2.25];
+pub(super) const AXIS_HEIGHT: f64 = 1.9;
+const MIN_ROW_HEIGHT: f64 = 1.35;
 
 /// The length of a swatch, and the least width of the graphs, in ems.
 const SWATCH_LENGTH: f64 = 2.4;
@@ -30,7 +35,28 @@ impl Table {
         let groups = column_groups(page, theme);
         let em = theme.note_size;
         let (groups, graph_left) = fitting_columns(groups, SWATCH_LENGTH * em, width, MIN_GRAPH_WIDTH * em, theme);
-        Table { groups, graph_left }
+        Table { groups, graph_left, row_count: page.curve_indices.len() }
+    }
+
+    pub fn row_count(&self) -> usize {
+        self.row_count.max(1)
+    }
+
+    fn head_height(&self, theme: &Theme) -> f64 {
+        let is_double = self.graph_left.is_some() || self.groups.iter().any(|(_, group)| !group.title.is_empty());
+        let [double, single] = HEAD_HEIGHTS;
+        theme.note_size * if is_double { double } else { single }
+    }
+
+    /// The height of the heads, and of the numbers under the graphs.
+    pub fn height_around_rows(&self, theme: &Theme) -> f64 {
+        let axis = if self.graph_left.is_some() { AXIS_HEIGHT } else { 0.0 };
+        self.head_height(theme) + axis * theme.note_size
+    }
+
+    /// The least height with all rows.
+    pub fn least_height(&self, theme: &Theme) -> f64 {
+        self.height_around_rows(theme) + MIN_ROW_HEIGHT * theme.note_size * self.row_count() as f64
     }
 
     /// The left edge of the graphs, relative to that of the table; `None` if there is no space for them.
@@ -53,8 +79,8 @@ impl Table {
         theme: &Theme,
     ) -> Vec<Rect> {
         let em = theme.note_size;
-        let top = frame.corner.y + HEAD_HEIGHT * em;
-        self.draw_heads(area, frame.corner, theme);
+        let top = frame.corner.y + self.head_height(theme);
+        self.draw_heads(area, Point::new(frame.corner.x, top), theme);
         let rule = [frame.corner.x, frame.corner.x + frame.size.x].map(|x| Point::new(x, top));
         let rule = Item::Path(Path::stroked(rule.to_vec(), theme.stroke(theme.hairline, theme.hair_width)));
         area.record(Drawing { class: "rule", title: String::new(), items: vec![rule] });
@@ -82,10 +108,11 @@ impl Table {
         graphs
     }
 
+    /// Draws the heads above a corner.
     fn draw_heads(&self, area: &impl Area, corner: Point, theme: &Theme) {
         let em = theme.note_size;
         let text = |text: &str, x: f64, line: f64, anchor: Anchor| {
-            let at = Point::new(corner.x + x, corner.y + (HEAD_HEIGHT - 0.55 - 1.35 * (1.0 - line)) * em);
+            let at = Point::new(corner.x + x, corner.y - (0.55 + 1.35 * (1.0 - line)) * em);
             area.record(theme.text_line(text, at, anchor, em, theme.grey));
         };
         for (left, group) in &self.groups {
