@@ -138,11 +138,19 @@ pub fn check_report(report: &crate::check::Report) -> String {
     printable_lines(&check::report_text(report))
 }
 
+/// The command whose options take negative numbers, so that each says itself what is wrong with them.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes_value = |arg: &clap::Arg| arg.get_action().takes_values() && !arg.is_positional();
+    command
+        .mut_args(|arg| if takes_value(&arg) { arg.allow_negative_numbers(true) } else { arg })
+        .mut_subcommands(with_negative_numbers)
+}
+
 /// Parses the command line; an error quotes arguments as they can be printed.
 fn parse_arguments(given: &[OsString]) -> Result<Arguments, clap::Error> {
     let color = Color::from_arguments(given).for_clap();
     let parse = |arguments: &[OsString]| {
-        let mut command = Arguments::command().color(color);
+        let mut command = with_negative_numbers(Arguments::command().color(color));
         let matches = command.try_get_matches_from_mut(arguments)?;
         Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
     };

@@ -345,3 +345,16 @@ fn the_places_of_json_are_those_of_the_text() {
         assert_eq!(places, expected, "{manifest:?}: {text}");
     }
 }
+
+#[test]
+fn a_negative_number_is_a_value_with_an_error_of_its_own() {
+    for (arguments, expected) in [
+        (["export", "--linkage", "jansen", "--parts", "--hole", "-3"], "a length greater than 0"),
+        (["export", "--linkage", "jansen", "--parts", "--chord", "-1"], "a number from 1e-9 to 0.1"),
+        (["sweep", "--by", "x", "atlas.toml", "--top", "-3"], "not in 1..="),
+    ] {
+        let (code, _, error) = run(Path::new("."), &arguments);
+        assert_eq!(code, 2);
+        assert!(error.contains(expected) && !error.contains("use '--"), "{arguments:?}: {error}");
+    }
+}

@@ -69,7 +69,7 @@ pub struct Guide {
 /// A slot in a moving link: the part of the line that the joint in it uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slot {
-    /// The foot of the line, or the joint of the yoke.
+    /// The foot of the line, or the joint of the yoke, or the first joint of the line of a slider.
     pub foot: JointId,
     /// The joint that slides in it.
     pub through: JointId,
@@ -95,7 +95,7 @@ impl Mechanism {
             blocks: linkage.joint_ids().filter_map(block).collect(),
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
             actuators: joints().filter_map(actuator).chain(linkage.driven_distance()).collect(),
-            guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
+            guides: linkage.joint_ids().flat_map(|joint| find_guides(linkage, circuit, joint)).collect(),
             gears: gears(linkage, circuit),
         }
     }
@@ -141,11 +141,26 @@ fn gears(linkage: &Linkage, circuit: &Circuit) -> Vec<Gear> {
     gears.chain(idlers.map(|Idler { pivots, distance, radius, .. }| Gear { pivots, distance, radius })).collect()
 }
 
-/// The guide on the frame of a slider or a yoke.
-fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Guide> {
-    let along = fixed_line_direction(linkage, circuit, linkage.slider_line(joint)?)?;
-    let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
-    Some(Guide { joint, ends: [circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?] })
+/// The guide on the frame of a slider, a yoke or a rack, and the pitch line of a rack that is not on its guide.
+fn find_guides(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<Guide> {
+    let guide = || {
+        let along = fixed_line_direction(linkage, circuit, linkage.slider_line(joint)?)?;
+        let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
+        Some(([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?], along))
+    };
+    let Some((ends, along)) = guide() else { return Vec::new() };
+    let pitch_line = || {
+        let JointKind::Rack { radius, .. } = linkage.joints[joint].kind else { return None };
+        // Where the rack moves along its line as the pinion turns counter-clockwise, it is to the right of the pivot; the mirror image of
+        // a linkage turns clockwise.
+        let to_left = left_normal(along.try_normalize(0.0)?) * linkage.placement.handedness();
+        let pivot = circuit.positions.point(linkage.crank()?[0], 0);
+        let offset = to_left.dot(&(pivot - ends[0])) - radius;
+        /// The part of the radius up to which a joint is on the pitch line: what rounding leaves of an offset like it.
+        const ROUNDING: f64 = 1e-9;
+        (offset.abs() > ROUNDING * radius.abs()).then(|| ends.map(|end| end + to_left * offset))
+    };
+    [Some(ends), pitch_line()].into_iter().flatten().map(|ends| Guide { joint, ends }).collect()
 }
 
 /// The direction of a line through two joints; `None` if it is not on the frame.
@@ -155,24 +170,30 @@ fn fixed_line_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 
     Some(circuit.positions.point(q, 0) - circuit.positions.point(p, 0))
 }
 
-/// The slot that has `joint` as its foot or yoke.
+/// The slot that a joint is the foot or the yoke of, or that it slides in on a moving link.
 fn find_slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Slot> {
     // The line turns with a base: the pivot and the foot of a slot, the guide of a yoke, or the line itself of a slot
-    // without offset.
-    let ([from, to], through) = match linkage.joints[joint].kind {
-        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => ([pivot, through], through),
-        JointKind::Slot { base: [pivot, through], .. } => ([pivot, joint], through),
-        JointKind::Yoke { from, line, .. } => (line, from),
-        _ => return None,
+    // without offset and of a slider.
+    let (foot, [from, to], through) = match linkage.joints[joint].kind {
+        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => (joint, [pivot, through], through),
+        JointKind::Slot { base: [pivot, through], .. } => (joint, [pivot, joint], through),
+        JointKind::Yoke { from, line, .. } => (joint, line, from),
+        _ => {
+            let line = linkage.slider_line(joint)?;
+            if fixed_line_direction(linkage, circuit, line).is_some() {
+                return None;
+            }
+            (line[0], line, joint)
+        }
     };
     let in_base = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
     let point = |joint, sample| circuit.positions.point(joint, sample);
-    let arm = |i: usize| in_base(point(to, i) - point(from, i), point(through, i) - point(joint, i));
+    let arm = |i: usize| in_base(point(to, i) - point(from, i), point(through, i) - point(foot, i));
     let arms: Vec<Vector> = (0..circuit.len()).map(arm).filter(|arm| arm.x.is_finite() && arm.y.is_finite()).collect();
     let longest = arms.iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
     let by = |a: &&Vector, b: &&Vector| longest.dot(a).total_cmp(&longest.dot(b));
     let ends = [*arms.iter().min_by(by)?, *arms.iter().max_by(by)?];
-    Some(Slot { foot: joint, through, base: [from, to], ends })
+    Some(Slot { foot, through, base: [from, to], ends })
 }
 
 #[cfg(test)]
@@ -180,7 +201,51 @@ mod tests {
     use super::*;
     use coupler_curves::catalogue;
     use coupler_curves::family::{Family, Sampling};
+    use coupler_curves::linkage::{LinkageBuilder, MotionOptions, Side};
+    use coupler_curves::motion::{Motion, Sampler};
     use coupler_curves::solve::Solver;
+
+    #[test]
+    fn a_rack_meets_its_pinion_on_the_side_that_moves_with_it() {
+        for (radius, offset, expected) in
+            [(1.0, -1.0, None), (-1.0, 1.0, None), (1.0, 3.0, Some(-1.0)), (-1.5, -1.0, Some(1.5))]
+        {
+            let mut builder = LinkageBuilder::default();
+            let [o, x] = [0.0, 5.0].map(|x| builder.fixed(&format!("P{x}"), Point::new(x, 0.0)));
+            let crank = builder.crank("A", o, 2.0).unwrap();
+            let rack = builder.rack("R", ([o, x], offset), (radius, 0.5)).unwrap();
+            let options = MotionOptions { range: Some([-90.0, 90.0]), ..MotionOptions::default() };
+            let linkage = builder.build(vec![crank, rack], None, options).unwrap();
+            let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+            let guides = Mechanism::new(&linkage, &motion.circuits[0]).guides;
+            let heights: Vec<f64> = guides.iter().map(|guide| guide.ends[0].y).collect();
+            let expected: Vec<f64> = std::iter::once(offset).chain(expected).collect();
+            assert!(heights.len() == expected.len(), "{heights:?}");
+            assert!(heights.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12), "{heights:?}");
+        }
+    }
+
+    #[test]
+    fn a_slider_on_a_moving_link_has_the_slot_that_it_uses() {
+        let mut builder = LinkageBuilder::default();
+        let [o, c] = [0.0, 7.0].map(|x| builder.fixed(&format!("P{x}"), Point::new(x, 0.0)));
+        let a = builder.crank("A", o, 2.0).unwrap();
+        let b = builder.dyad("B", [a, c], [6.0, 4.5], Side::Left).unwrap();
+        let s = builder.slide("S", (a, 8.0), ([c, b], 0.5), Side::Left).unwrap();
+        let linkage = builder.build(vec![s], None, MotionOptions::default()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(36)));
+        let circuit = &motion.circuits[0];
+        let mechanism = Mechanism::new(&linkage, circuit);
+        let [slot] = mechanism.slots[..] else { panic!("{:?}", mechanism.slots) };
+        assert_eq!((slot.foot, slot.through, mechanism.guides.len()), (c, s, 0));
+        for k in 0..circuit.len() {
+            let pose: Vec<Point> = linkage.joint_ids().map(|joint| circuit.positions.point(joint, k)).collect();
+            let [from, to] = slot.ends_in(&pose);
+            let part = (pose[s] - from).dot(&(to - from)) / (to - from).norm_squared();
+            assert!((-1e-12..=1.0 + 1e-12).contains(&part), "{part}");
+            assert!(cross(to - from, pose[s] - from).abs() < 1e-9);
+        }
+    }
 
     #[test]
     fn an_idler_meets_both_gears_that_turn_the_same_way() {

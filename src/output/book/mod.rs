@@ -19,6 +19,7 @@ use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily, PlannedList}
 use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
+use coupler_curves::exchange::CurveName;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, HowToRead, PageFinisher, Volume};
 use coupler_drawing::page::{self, Layout, PanelPage, PanelScale, Paper};
@@ -355,7 +356,13 @@ fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
     }
     let curve_name = solved.iter().find_map(|solved| {
         let curve = solved.curves.get(solved.curves.len() / 2)?;
-        Some(format!("{}:{}.{}", family.id, solved.cell.number, curve.trace))
+        let name = CurveName {
+            family: family.id.clone(),
+            cell: Some(solved.cell.number),
+            curve: Some([curve.trace, curve.circuit]),
+            overrides: Vec::new(),
+        };
+        Some(name.to_string())
     });
     let first = solved.first()?;
     let period = page::dash_period(&first.linkage, &first.motion.circuits, &plan.page);

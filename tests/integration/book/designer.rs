@@ -290,6 +290,10 @@ fn what_is_said_of_plates_is_right_for_the_atlas() {
     let text = said(pdf, first + 1);
     assert!(text.contains("The table") && text.contains("5° of input") && text.contains("grid:"), "{text}");
     assert!(text.contains("Straightest, page"), "{text}");
+    // The name of the curve is one that can be exported.
+    let name = text.split_once("such as ").unwrap().1.split(' ').next().unwrap();
+    let name = coupler_curves::exchange::CurveName::parse(name).unwrap();
+    assert!(name.family == "grid" && name.curve.is_some(), "{name}");
     let panels = Atlas::new(
         "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\ndash = \"10 deg\"\n[[family]]\nid = \"evans\"\n\
          linkage = \"evans\"\nsampling = { samples = 24 }\npanels = [2, 1]\ngrid = { p = [2, 3, 4] }\nlet = { a = \"(1 + p)^1.5 / 2\" }",

@@ -1,6 +1,6 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Side, SideTemplate, Template};
+use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Parameter, Side, SideTemplate, Template};
 use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
 use crate::text::{format_exactly, is_same_number, round_to_six_digits};
 
@@ -113,7 +113,7 @@ impl Template {
                 let rack = with_unless_zero(rack, &to_left, offset, "");
                 let rack =
                     rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
-                let rack = rack.with(radius.to_math_text());
+                let rack = rack.with(radius.to_math_text()).with_words(self.mesh_of_rack(*crank, radius));
                 let first = name(along[0]);
                 match is_zero(start) {
                     true => rack.with_words(format!(", at input 0 beside {first}")),
@@ -265,6 +265,30 @@ fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, af
     if is_zero(value) { text } else { text.with_words(before).with(value.to_math_text()).with_words(after) }
 }
 
+impl Template {
+    /// The side of a pinion's pivot on which it moves its rack along the line: as it turns counter-clockwise with the input, that is the
+    /// right of the line.
+    fn mesh_of_rack(&self, crank: usize, radius: &CompiledExpression) -> String {
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.side_as_drawn(side));
+        let is_of_length = |parameter: &Parameter| {
+            radius.name_or_number().as_deref() == Some(displayed_name(&parameter.name).as_str())
+                && parameter.min >= Some(0.0)
+        };
+        let sides = match radius.constant_value() {
+            Some(radius) if radius < 0.0 => left.to_owned(),
+            Some(_) => right.to_owned(),
+            None if self.parameters.iter().any(is_of_length) => right.to_owned(),
+            None => format!("{right}, if negative {left},"),
+        };
+        match &self.joints[crank].kind {
+            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => {
+                format!(", {sides} of {}", displayed_name(&self.joints[*pivot].name))
+            }
+            _ => String::new(),
+        }
+    }
+}
+
 fn is_zero(value: &CompiledExpression) -> bool {
     value.constant_value() == Some(0.0)
 }
@@ -363,7 +387,7 @@ mod tests {
             (
                 "rack-steering",
                 "R",
-                "rack on a line along OX, to its left: −r, by a pinion on the crank of A, its pitch radius = r, at input 0 beside O",
+                "rack on a line along OX, to its left: −r, by a pinion on the crank of A, its pitch radius = r, right of O, at input 0 beside O",
             ),
             ("roberts", "M", "AM = b, BM = b, right of AB"),
         ] {

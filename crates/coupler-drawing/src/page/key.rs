@@ -129,13 +129,10 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
         let sliding = |pivot: JointId, through: JointId| {
             format!("output: the link from {} that slides through {}", name(pivot), name(through))
         };
-        let is_at_pivot = |joint: JointId| {
-            let own = |placed: &JointTemplate| placed.name == linkage.joints[joint].name;
-            template.joints.iter().position(own).is_some_and(|own| template.is_foot_at_pivot(own))
-        };
         Some(match linkage.output()? {
             OutputLink::Link([from, to]) => match linkage.joints[to].kind {
-                JointKind::Slot { base: [pivot, through], .. } if is_at_pivot(to) => sliding(pivot, through),
+                // Also where the line passes through the pivot, and the foot of the perpendicular is no other point.
+                JointKind::Slot { base: [pivot, through], .. } if pivot == from => sliding(pivot, through),
                 _ => format!("output: the link from {} to {}", name(from), name(to)),
             },
             OutputLink::Slot { base: [pivot, through], .. } => sliding(pivot, through),

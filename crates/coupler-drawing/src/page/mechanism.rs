@@ -166,7 +166,10 @@ impl<'a> PosedMechanism<'a> {
             let ends = slot.ends_in(&self.pose).map(on_page);
             items.push(Item::Path(Path::stroked(vec![at(slot.foot), ends[0], ends[1]], heavy)));
             items.push(slot_item(ends, theme));
-            blocks.push((at(slot.through), ends[1] - ends[0]));
+            // A slider in it has its block already.
+            if self.mechanism.blocks.iter().all(|block| block.joint != slot.through) {
+                blocks.push((at(slot.through), ends[1] - ends[0]));
+            }
         }
         items.extend(blocks.into_iter().map(|(centre, along)| block_item(centre, along, theme)));
         let circle = |centre, radius, color| {

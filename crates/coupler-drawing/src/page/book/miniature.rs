@@ -136,7 +136,8 @@ impl Miniature {
                 corners
             };
             let mut links: Vec<Vec<Point>> = mechanism.links.iter().map(corners).collect();
-            links.extend(mechanism.slots.iter().map(|slot| slot.ends_in(&pose).to_vec()));
+            let slots = mechanism.slots.iter().map(|slot| (pose[slot.foot], slot.ends_in(&pose)));
+            links.extend(slots.map(|(foot, [a, b])| vec![foot, a, b]));
             links.extend(mechanism.actuators.iter().map(|ends| ends.map(|joint| pose[joint]).to_vec()));
             self.guides = mechanism.guides.iter().map(|guide| guide.ends.to_vec()).collect();
             self.pivots = mechanism.pivots.iter().map(|&joint| pose[joint]).collect();
