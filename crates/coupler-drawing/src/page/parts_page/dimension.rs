@@ -88,18 +88,21 @@ fn line(points: &[Point]) -> Polyline {
     Polyline { points: points.to_vec(), is_closed: false }
 }
 
-/// A length as captions print it, without the noise of differences: in full if that takes no more digits than anyone writes, and otherwise in six digits
-/// after ≈.
+/// A length as captions print it, without the noise of differences: in full if that takes no more digits than anyone writes and reads back as the
+/// length, and otherwise in six digits after ≈.
 pub(super) fn length_text(value: f64) -> String {
     const MAX_WRITTEN_DIGITS: usize = 10;
-    let value = format!("{value:.11e}").parse().unwrap_or(value);
-    let rounded = round_to_six_digits(value);
-    if is_same_number(rounded, value) {
+    /// The noise of differences, as a part of their value: the twelfth digit of a number that is not round may happen to be 0.
+    const NOISE: f64 = 16.0 * f64::EPSILON;
+    let without_noise = format!("{value:.11e}").parse().unwrap_or(value);
+    let rounded = round_to_six_digits(without_noise);
+    if is_same_number(rounded, without_noise) {
         return rounded.to_string();
     }
-    let in_full = format_in_full(value);
-    let is_written =
-        exact_decimals(value).is_some() && in_full.chars().filter(char::is_ascii_digit).count() <= MAX_WRITTEN_DIGITS;
+    let in_full = format_in_full(without_noise);
+    let is_written = exact_decimals(without_noise).is_some()
+        && in_full.chars().filter(char::is_ascii_digit).count() <= MAX_WRITTEN_DIGITS
+        && (without_noise - value).abs() <= NOISE * value.abs();
     if is_written { in_full } else { format!("≈{rounded}") }
 }
 
@@ -115,6 +118,7 @@ mod tests {
             (1.234_567_89, "1.23456789"),
             (1.1 - 1.0 - 0.025, "0.075"),
             (2.0_f64.sqrt(), "≈1.41421"),
+            (2000.0_f64.sqrt(), "≈44.7214"),
         ] {
             assert_eq!(length_text(value), text);
         }
