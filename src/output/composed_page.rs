@@ -8,7 +8,7 @@ use crate::manifest::{Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, PageJob, Sink, page_file_name};
 use crate::sweep::Division;
 use coupler_curves::solve::SolvedCell;
-use coupler_drawing::render::{self, PageFormat};
+use coupler_drawing::render::{self, Format, PageFormat};
 use coupler_drawing::scene::Scene;
 
 /// A page of a family in memory.
@@ -41,7 +41,9 @@ impl ComposedPage {
             Ok(())
         });
         if let Err(Error::Misfits(_)) = &result {
-            scale::explain(plan, std::iter::once((planned, Division::WHOLE)), stop)?;
+            if let Some(problem) = scale::scale_problem(plan, planned, (&[Format::Svg], Division::WHOLE), stop)? {
+                return Err(Error::Misfits(vec![problem]));
+            }
         }
         result?;
         // Without an error every page is passed on, unless the run has been interrupted.

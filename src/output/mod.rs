@@ -39,6 +39,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use crate::manifest::{Plan, PlannedFamily};
+use crate::pipeline::Inputs;
 use crate::record::RunRecord;
 use crate::sweep::{self, Division};
 use coupler_curves::problem::Problem;
@@ -105,7 +106,14 @@ pub fn write_atlas(
     let journals: Vec<PathBuf> = shards.iter().map(|shard| shard.path.clone()).collect();
     shards.into_iter().for_each(|shard| previous.add_pages(shard.record.run));
     ownership::check_owner(plan, output, options, &previous)?;
-    if let Err(error) = ownership::check_files(plan, output, options, &previous) {
+    let is_changed = |planned: &&PlannedFamily| {
+        let recorded = previous.families.iter().find(|record| record.id == planned.family.id);
+        options.force || recorded.and_then(|record| record.inputs_sha256) != Some(Inputs::new(planned).family_digest())
+    };
+    let changed = plan.families.iter().filter(|planned| options.includes(planned)).filter(is_changed);
+    let checked = ownership::check_files(plan, output, options, &previous)
+        .and_then(|()| scale::check(plan, changed.map(|planned| (planned, Division::WHOLE)), options));
+    if let Err(error) = checked {
         if is_recovered {
             // What is known is recorded, so that the next run needs no repair.
             Journal::open(plan, output, options, previous).close()?;
@@ -116,9 +124,11 @@ pub fn write_atlas(
     if let Err(error) = &result {
         journal::suspend(output, matches!(error, Error::Interrupted));
     }
-    if let Err(Error::Misfits(_)) = &result {
+    if let Err(Error::Misfits(problems)) = &result
+        && problems.is_empty()
+    {
         let selected = plan.families.iter().filter(|planned| options.includes(planned));
-        scale::explain(plan, selected.map(|planned| (planned, Division::WHOLE)), &options.interrupt)?;
+        scale::explain(plan, selected.map(|planned| (planned, Division::WHOLE)), options)?;
     }
     let run = result?;
     for path in journals {
@@ -168,9 +178,10 @@ fn write_families(
 /// The problems of families whose linkages do not fit their pages at the scale that the manifest gives, each with what to do about it.
 pub fn scale_problems(plan: &Plan) -> Vec<Problem> {
     let never = AtomicBool::new(false);
-    let has_pages = |planned: &&PlannedFamily| planned.formats.iter().any(|format| format.page_format().is_some());
-    let problem = |planned| scale::scale_problem(plan, planned, Division::WHOLE, &never).ok().flatten();
-    plan.families.iter().filter(has_pages).filter_map(problem).collect()
+    let problem = |planned: &PlannedFamily| {
+        scale::scale_problem(plan, planned, (&planned.formats, Division::WHOLE), &never).ok().flatten()
+    };
+    plan.families.iter().filter_map(problem).collect()
 }
 
 /// Warns of each family of which no curve is shown, because `where` keeps no cell or none can be assembled: from the

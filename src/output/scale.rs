@@ -1,57 +1,100 @@
 //! Whether linkages fit their pages at the scale that a manifest gives: what does not is an error, never reduced.
 
+use std::borrow::Cow;
 use std::sync::atomic::AtomicBool;
 
-use super::{Error, check_interrupt};
+use super::options::check_interrupt;
+use super::{Error, Options as RunOptions};
 use crate::manifest::{Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::sweep::Division;
 use coupler_curves::problem::Problem;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{Layout, Options, PanelScale, Paper, format_scale, usual_scale_below};
+use coupler_drawing::render::Format;
 
-/// What is wrong with the scales of families of which a page was reduced, on some of their pages: with all of them composed again, so that
-/// everything is said in one run.
+/// What is wrong with the scales of families of which a page was reduced, so that everything is said in one run.
 ///
 /// # Errors
 /// The problems; the run is interrupted.
 pub(super) fn explain<'p>(
     plan: &Plan,
     families: impl Iterator<Item = (&'p PlannedFamily, Division)>,
-    stop: &AtomicBool,
+    options: &RunOptions,
 ) -> Result<(), Error> {
-    let problems = families.map(|(planned, part)| scale_problem(plan, planned, part, stop));
-    let misfits: Vec<Problem> = problems.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect();
-    if !misfits.is_empty() {
-        return Err(Error::Misfits(misfits));
-    }
-    // The pages of a book may be narrower than those of the atlas.
+    check(plan, families, options)?;
     let given = plan.families.iter().find(|planned| planned.scale.fixed().is_some());
     let span = given.and_then(|planned| planned.scale_span.clone()).unwrap_or_default();
     let problem = Problem::error(span, "linkages do not fit the pages of the book at this scale");
     Err(Error::Misfits(vec![problem.with_help("give a smaller scale, a larger paper, or a narrower binding")]))
 }
 
-/// The problem of a family with a given scale at which linkages on some of the pages do not fit, with what to do about it. The pages are composed to
-/// find out, since a figure has what the texts around it leave.
+/// Finds out whether the linkages of some families fit their pages at the scales that are given, before any is written.
+///
+/// # Errors
+/// The problems of those that do not; the run is interrupted.
+pub(super) fn check<'p>(
+    plan: &Plan,
+    families: impl Iterator<Item = (&'p PlannedFamily, Division)>,
+    options: &RunOptions,
+) -> Result<(), Error> {
+    let problem = |(planned, part): (&PlannedFamily, Division)| {
+        let formats = options.formats.as_deref().unwrap_or(&planned.formats);
+        scale_problem(plan, planned, (formats, part), &options.interrupt)
+    };
+    let misfits: Vec<Problem> =
+        families.map(problem).collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect();
+    if misfits.is_empty() { Ok(()) } else { Err(Error::Misfits(misfits)) }
+}
+
+/// The problem of a family with a given scale at which linkages on some of its pages, or of those of the book, do not fit, in the formats that it has.
 ///
 /// # Errors
 /// The run is interrupted.
 pub(super) fn scale_problem(
     plan: &Plan,
     planned: &PlannedFamily,
-    part: Division,
+    (formats, part): (&[Format], Division),
+    stop: &AtomicBool,
+) -> Result<Option<Problem>, Error> {
+    let has_pages = formats.iter().any(|format| format.page_format().is_some());
+    let has_book = cfg!(feature = "pdf") && formats.contains(&Format::Pdf);
+    // The pages of a book may be narrower than those of the atlas.
+    let is_narrower = plan.book.binding > 0.0;
+    let of_pages = |is_book: bool| problem_of_pages(plan, planned, (is_book, part), stop);
+    let own = if has_pages || has_book && !is_narrower { of_pages(false)? } else { None };
+    if own.is_none() && has_book && is_narrower { of_pages(true) } else { Ok(own) }
+}
+
+/// The plan of the pages of the atlas, or of those of its book.
+fn with_pages(plan: &Plan, is_book: bool) -> Cow<'_, Plan> {
+    if is_book { plan.with_book_pages() } else { Cow::Borrowed(plan) }
+}
+
+/// The problem of the pages of a family, or of those in the book, with what to do about it. The pages are composed to find out, since a figure has
+/// what the texts around it leave.
+fn problem_of_pages(
+    plan: &Plan,
+    planned: &PlannedFamily,
+    (is_book, part): (bool, Division),
     stop: &AtomicBool,
 ) -> Result<Option<Problem>, Error> {
     let Some(scale) = planned.scale.fixed() else { return Ok(None) };
     let unit = planned.family.unit;
-    let mut fitting = fitting_scales(plan, planned, part, false, stop)?;
+    // That nothing is wrong is found out at the price of composing the pages only.
+    let mut fitting = fitting_scales(&with_pages(plan, is_book), planned, part, false, stop)?;
     let page_count = fitting.len();
     fitting.retain(|fitting| fitting.is_finite());
     if fitting.is_empty() {
         return Ok(None);
     }
-    let fits = |plan: &Plan, planned: &PlannedFamily| match fitting_scales(plan, planned, Division::WHOLE, true, stop) {
+    let fits = |plan: &Plan, planned: &PlannedFamily| match fitting_scales(
+        &with_pages(plan, is_book),
+        planned,
+        Division::WHOLE,
+        true,
+        stop,
+    ) {
         Ok(_) => Ok(true),
         Err(Error::Misfits(_)) => Ok(false),
         Err(error) => Err(error),
@@ -93,6 +136,7 @@ pub(super) fn scale_problem(
         (all, some) if all == some => format!("any of the {all} pages"),
         (all, some) => format!("{some} of {all} pages"),
     };
+    let which = if is_book { format!("{which} of the book") } else { which };
     let message = format!("the linkages of `{}` do not fit {which} at {at}", planned.family.id);
     let help = match remedies.split_last() {
         None => "write a smaller scale, or a larger paper in [page]".to_owned(),

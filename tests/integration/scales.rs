@@ -101,6 +101,25 @@ fn what_does_not_fit_is_an_error_whose_remedies_fit() {
 }
 
 #[test]
+fn what_does_not_fit_is_found_before_anything_is_written_also_where_there_is_only_a_book() {
+    let scaled = "scale = \"1:1\"\npanels = [2, 1]";
+    let first = "[[family]]\nid = \"first\"\nlinkage = \"four-bar\"\ncases = [{ frame = 4, crank = 1, coupler = 3, rocker = 3.5 }]\n";
+    let text =
+        manifest("unit = \"mm\"", "paper = \"a4\"", scaled).replacen("[[family]]", &format!("{first}[[family]]"), 1);
+    let folder = folder_with(&text);
+    let (code, _, error) = run(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    assert_eq!(code, 2, "{error}");
+    assert!(!folder.path().join("out/first").exists());
+    let text = manifest("unit = \"mm\"\nformats = [\"pdf\"]", "paper = \"a4\"", scaled);
+    for book in ["", "[book]\nbinding = \"20 mm\"\n"] {
+        let folder = folder_with(&format!("{text}{book}"));
+        let error = run(folder.path(), &["validate", "atlas.toml"]).2;
+        assert!(error.contains("the linkages of `f` do not fit"), "{error}");
+        assert_eq!(run(folder.path(), &["render", "-q", "-o", "out"]).2, error);
+    }
+}
+
+#[test]
 fn a_ratio_needs_a_unit_and_two_numbers() {
     for (atlas, scale, message) in [
         ("", "1:2", "this scale needs the unit of the lengths"),
@@ -108,6 +127,7 @@ fn a_ratio_needs_a_unit_and_two_numbers() {
         ("unit = \"mm\"", "0:1", "a scale has a number before the colon, and one after it"),
         ("unit = \"mm\"", "-1:2", "a scale has a number before the colon, and one after it"),
         ("unit = \"mm\"", "1:1e9", "mm to a unit"),
+        ("unit = \"mm\"", "1 / 2", "help: write scale = \"1:2\""),
         ("unit = \"furlong\"", "1:2", "`furlong` is not one of the words allowed here"),
     ] {
         let folder = folder_with(&manifest(atlas, "", &format!("scale = \"{scale}\"")));

@@ -353,16 +353,21 @@ fn check_room<'t>(
         };
         planned.formats.contains(&Format::Pdf) && planned.layout.grid()[0] > most[0]
     };
-    let problem = if page.paper.width < least {
-        format!("the gutter leaves {} mm of the width of a page: the least is {least} mm", page.paper.width)
+    let (problem, help) = if page.paper.width < least {
+        let left = page.paper.width;
+        (
+            format!("the gutter leaves {left} mm of the width of a page: the least is {least} mm"),
+            "give a narrower gutter, or wider paper",
+        )
     } else {
         let Some(planned) = families.iter().find(is_too_wide) else { return Some(()) };
         let ([columns, _], id) = (planned.layout.grid(), &planned.family.id);
-        format!("the gutter leaves no space for the {columns} columns of family `{id}`")
+        (
+            format!("the gutter leaves no space for the {columns} columns of family `{id}`"),
+            "give a narrower gutter, wider paper, or fewer columns",
+        )
     };
-    parser.report(
-        Problem::error(value.span(), problem).with_help("give a narrower gutter, wider paper, or fewer columns"),
-    );
+    parser.report(Problem::error(value.span(), problem).with_help(help));
     None
 }
 

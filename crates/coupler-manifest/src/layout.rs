@@ -108,9 +108,21 @@ pub(crate) fn panel_scale<'t>(
     }
     let read = |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| match text.and_then(|text| text.split_once(':')) {
         Some((paper, plane)) => ratio(value, [paper, plane], unit, parser),
+        None if let Some([paper, plane]) = text.and_then(fraction) => {
+            let problem = Problem::error(value.span(), "a scale has a colon, and no fraction bar");
+            parser.report(problem.with_help(format!("write scale = \"{paper}:{plane}\"")));
+            None
+        }
         None => parser.constant_quantity(value, Dimension::PaperLength),
     };
     read_within(value, parser, read, RANGE, "mm to a unit").map(PanelScale::Fixed)
+}
+
+/// The numbers of a fraction.
+fn fraction(text: &str) -> Option<[&str; 2]> {
+    let (over, under) = text.split_once('/')?;
+    let parts = [over, under].map(str::trim);
+    parts.iter().all(|part| part.parse::<f64>().is_ok()).then_some(parts)
 }
 
 /// Reads a scale like 1:2, a length on paper to one of the linkage, as millimetres to a unit.

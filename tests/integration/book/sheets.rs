@@ -150,6 +150,7 @@ fn gutters_and_addresses_that_cannot_be_are_errors() {
     let narrow = |paper: &str| MANIFEST.replace("paper = \"a4\"", paper).replace("12 mm", "40 mm");
     let report = problems(&narrow("paper = { width = \"120 mm\", height = \"200 mm\" }"));
     assert!(report.contains("the gutter leaves 80 mm of the width of a page: the least is 100 mm"), "{report}");
+    assert!(!report.contains("columns"), "{report}");
     let [most, _] = Layout::max_panels(&plan(MANIFEST).page);
     let report = problems(&narrow("paper = \"a4\"").replace("panels = [2, 1]", &format!("panels = [{most}, 1]")));
     assert!(
