@@ -37,7 +37,7 @@ pub struct AxisRange {
 
 impl AxisRange {
     /// The range of a quantity: its own, or that of the values that can be drawn.
-    pub(super) fn new(quantity: &Quantity, values: impl Iterator<Item = f64>) -> AxisRange {
+    pub fn new(quantity: &Quantity, values: impl Iterator<Item = f64>) -> AxisRange {
         let is_log = quantity.is_log;
         let drawn = values.filter(|&value| is_drawable(value, is_log));
         let (low, high) = drawn.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));

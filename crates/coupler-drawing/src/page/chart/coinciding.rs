@@ -1,20 +1,50 @@
 //! Lines of a chart that coincide, which are drawn once.
 
-use std::collections::BTreeMap;
+use crate::chart::{AxisRange, PointSource, Series};
+use coupler_curves::geometry::{Point, distance_to_segment};
 
-use crate::chart::Series;
+/// The distances, as parts of the axes, up to which two lines are one: of lines through samples, what is less than their weight, of those through
+/// linkages, which have marks, rounding.
+const VISIBLE: f64 = 1e-3;
+const ROUNDING: f64 = 1e-6;
 
 /// The label of each line for the quantity at an index: with those of the later lines that coincide with it, and empty if
 /// all lines do; `None` if it coincides with an earlier line.
 ///
-/// Measures of the linkage, for example, are the same for each of its traced points.
-pub(super) fn shared_labels(series: &[Series], quantity_index: usize) -> Vec<Option<String>> {
-    let mut groups: BTreeMap<Vec<u64>, Vec<usize>> = BTreeMap::new();
-    for (k, line) in series.iter().enumerate() {
-        groups.entry(line.points(quantity_index).flatten().map(value_bits).collect()).or_default().push(k);
+/// Measures of the linkage, for example, are the same for each of its traced points, and a point has one path whatever drives its link.
+pub(super) fn shared_labels(
+    series: &[Series],
+    quantity_index: usize,
+    source: PointSource,
+    axes: [AxisRange; 2],
+) -> Vec<Option<String>> {
+    let on_axes = |values: [f64; 2]| {
+        let [x, y] = [0, 1].map(|k| axes[k].fraction(values[k]));
+        Some(Point::new(x?, y?))
+    };
+    // Lines through samples are drawn through more of them.
+    let points = |line: &Series| match source {
+        PointSource::Curves => line.points(quantity_index).map(on_axes).collect(),
+        PointSource::Samples => line.path(quantity_index).into_iter().map(on_axes).collect(),
+    };
+    let lines: Vec<Vec<Option<Point>>> = series.iter().map(points).collect();
+    let coincide = |a: usize, b: usize| match source {
+        // Each point is a linkage, which has a mark.
+        PointSource::Curves => has_same_points(&lines[a], &lines[b], ROUNDING),
+        PointSource::Samples => {
+            has_same_points(&lines[a], &lines[b], VISIBLE)
+                || runs_along(&lines[a], &lines[b]) && runs_along(&lines[b], &lines[a])
+        }
+    };
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for k in 0..series.len() {
+        match groups.iter_mut().find(|group| coincide(group[0], k)) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
+        }
     }
     let mut labels = vec![None; series.len()];
-    for lines in groups.into_values() {
+    for lines in groups {
         labels[lines[0]] = Some(match lines.len() == series.len() {
             true => String::new(),
             false => {
@@ -31,9 +61,27 @@ pub(super) fn shared_labels(series: &[Series], quantity_index: usize) -> Vec<Opt
     labels
 }
 
-/// The bits of a value, by which lines are compared: all gaps are equal, and so are both zeros.
-fn value_bits(value: f64) -> u64 {
-    if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
+/// Whether two lines have the same points.
+fn has_same_points(a: &[Option<Point>], b: &[Option<Point>], distance: f64) -> bool {
+    let is_same = |(a, b): (&Option<Point>, &Option<Point>)| match (a, b) {
+        (Some(a), Some(b)) => (a - b).norm() <= distance,
+        (None, None) => true,
+        _ => false,
+    };
+    a.len() == b.len() && a.iter().zip(b).all(is_same)
+}
+
+/// Whether all points of a line are on another one, in their order.
+fn runs_along(line: &[Option<Point>], other: &[Option<Point>]) -> bool {
+    let segment = |k: usize| Some([(*other.get(k)?)?, (*other.get(k + 1)?)?]);
+    let mut at = 0;
+    let mut is_on_other = |p: &Point| {
+        let found =
+            (at..other.len()).find(|k| segment(*k).is_some_and(|[a, b]| distance_to_segment(*p, a, b) <= VISIBLE));
+        at = found.unwrap_or(at);
+        found.is_some()
+    };
+    line.iter().flatten().all(|p| is_on_other(p))
 }
 
 /// The parts that some labels have in common, if no other label has all of them: the other parts distinguish no lines.
@@ -67,9 +115,12 @@ mod tests {
             y: vec![y.to_vec()],
             ..Series::default()
         };
-        let labels = |lines: &[Series]| -> Vec<String> {
-            shared_labels(lines, 0).into_iter().map(|label| label.unwrap_or_else(|| "-".to_owned())).collect()
+        let axis = AxisRange { low: 0.0, high: 2.0, is_log: false };
+        let labels_of = |lines: &[Series], source: PointSource| -> Vec<String> {
+            let labels = shared_labels(lines, 0, source, [axis; 2]);
+            labels.into_iter().map(|label| label.unwrap_or_else(|| "-".to_owned())).collect()
         };
+        let labels = |lines: &[Series]| labels_of(lines, PointSource::Curves);
         let [a, b, c] = [line("a", &[0.0, f64::NAN]), line("b", &[0.0, 1.0]), line("c", &[-0.0, -f64::NAN])];
         assert_eq!(labels(&[a.clone(), b.clone(), c.clone()]), ["a; c", "b", "-"]);
         assert_eq!(labels(&[a.clone(), c.clone()]), ["", "-"]);
@@ -81,5 +132,13 @@ mod tests {
         });
         assert_eq!(labels(&[first, second].concat()), ["p = 1", "-", "p = 2", "-"]);
         assert!(labels(&[]).is_empty());
+        // To rounding, and where the samples of a line are elsewhere on it.
+        let almost = line("d", &[1e-15, 1.0 - 1e-15]);
+        let [e, f] =
+            [1.0, 1.1].map(|y| Series { x: vec![1.0, 1.25, 2.0], y: vec![vec![0.0, 0.25 * y, 1.0]], ..almost.clone() });
+        let b = line("b", &[0.0, 1.0]);
+        assert_eq!(labels(&[b.clone(), almost, f.clone()]), ["b; d", "-", "d"]);
+        assert_eq!(labels(&[b.clone(), e.clone(), f.clone()]), ["b", "d", "d"]);
+        assert_eq!(labels_of(&[b, e, f], PointSource::Samples), ["b; d", "-", "d"]);
     }
 }

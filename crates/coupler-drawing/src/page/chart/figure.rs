@@ -11,7 +11,7 @@ use super::coinciding::shared_labels;
 use super::line::{ClippedLine, LineStyle};
 use super::line_labels::{self, LineLabel};
 use super::scale::{RangeEnds, Scale, ScaleOptions};
-use crate::chart::{PointSource, Quantity, Series, is_drawable};
+use crate::chart::{AxisRange, PointSource, Quantity, Series, is_drawable};
 use crate::scene::{Anchor, Color, Group, Item, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -52,7 +52,11 @@ impl<'a> ChartFigure<'a> {
     /// The chart of the quantity at an index, for an area of a size in millimetres.
     pub fn new(page: &'a ChartPage<'a>, quantity_index: usize, area: Vector, theme: &Theme) -> ChartFigure<'a> {
         let chart = page.chart;
-        let labels = shared_labels(page.series, quantity_index);
+        let quantities = [&chart.x, &chart.y[quantity_index]];
+        let values =
+            |k: usize| page.series.iter().flat_map(move |line| line.points(quantity_index).map(move |at| at[k]));
+        let axes = [0, 1].map(|k| AxisRange::new(quantities[k], values(k)));
+        let labels = shared_labels(page.series, quantity_index, chart.point_source, axes);
         let texts = labels.iter().flatten().map(String::as_str);
         let right = line_labels::label_width(texts, page.heading.symbols, theme).min(0.3 * area.x);
         let tick_count = |length: f64, spacing: f64, most: usize| ((length / spacing) as usize).clamp(2, most);
