@@ -120,10 +120,20 @@ pub(super) struct TextLine {
 }
 
 impl TextLine {
-    /// A line of text at a position of the area.
+    /// A line of text at a position of the area, with raised exponents: what follows `^` up to the end of its number, name or parentheses.
     pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> TextLine {
-        let runs = vec![TextRun::new(text, typeface.regular())];
+        let runs = runs_with_exponents(text, typeface.regular());
         TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
+    }
+
+    /// The text as it was written: an exponent follows `^`.
+    fn plain(&self) -> String {
+        let mut plain = String::new();
+        for run in &self.text.runs {
+            plain.extend(run.is_raised.then_some('^'));
+            plain.push_str(&run.text);
+        }
+        plain
     }
 
     /// A line of mathematical text at a position of the area: symbols in italics, exponents raised, with the characters of typesetting.
@@ -144,14 +154,13 @@ impl TextLine {
         TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
-    /// The line with the words that are single-letter `symbols` in italics, and with raised exponents: what follows `^` up
-    /// to the end of its number, name or parentheses.
+    /// The line with the words that are single-letter `symbols` in italics.
     pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
         // A single letter, also with an index, is a symbol; a longer name is read as a word.
         let printed = |symbol: &String| MathText::from_name(symbol).pieces().first().cloned();
         let letters: HashSet<String> =
             symbols.iter().filter_map(printed).filter(|piece| piece.is_symbol).map(|piece| piece.text).collect();
-        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        let text = self.plain();
         let mut runs: Vec<TextRun> = Vec::new();
         let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
         let mut push = |text: &str, is_italic, is_raised| match runs.last_mut() {
@@ -190,7 +199,7 @@ impl TextLine {
         if least * self.text.width() <= width {
             return vec![self.fit_width(width)];
         }
-        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        let text = self.plain();
         if text.split(" · ").any(|part| self.with_words(part).text.width() > width) {
             self.text.size *= least;
         }
@@ -205,14 +214,14 @@ impl TextLine {
 
     /// A line like this one with other words, all in the face of its first run.
     fn with_words(&self, words: &str) -> TextLine {
-        let runs = self.text.runs.first().map(|run| TextRun::new(words, run.face)).into_iter().collect();
+        let runs = self.text.runs.first().map(|run| runs_with_exponents(words, run.face)).unwrap_or_default();
         TextLine { text: Text { runs, ..self.text.clone() } }
     }
 
     /// The text in lines no wider than `width`, broken at the separators of its parts where that is possible, and
     /// otherwise between words.
     pub fn wrap_at_separators(&self, width: f64) -> Vec<String> {
-        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        let text = self.plain();
         let is_wider = |line: &str| self.with_words(line).text.width() > width;
         let mut lines: Vec<String> = Vec::new();
         for part in text.split(" · ").filter(|part| !part.is_empty()) {
@@ -286,9 +295,8 @@ impl TextLine {
     /// The text in lines no wider than `width`, broken between words, and in words that are wider; a name stays with its value if both fit a
     /// line.
     pub fn wrap(&self, width: f64) -> Vec<String> {
-        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
-        let is_wider =
-            |line: &str| self.text.runs.first().is_some_and(|run| run.face.width(line, self.text.size) > width);
+        let text = self.plain();
+        let is_wider = |line: &str| self.with_words(line).text.width() > width;
         let mut lines: Vec<String> = Vec::new();
         let words = equations(&text).into_iter().flat_map(|part| match is_wider(part) {
             true => part.split(' ').collect(),
@@ -337,6 +345,30 @@ fn equations(text: &str) -> Vec<&str> {
     }
     words.push(&text[start..]);
     words
+}
+
+/// A text in runs: its exponents are raised.
+fn runs_with_exponents(text: &str, face: Face) -> Vec<TextRun> {
+    let mut runs = vec![TextRun::new("", face)];
+    let mut rest = text;
+    while let Some(at) = rest.find('^') {
+        let (before, from) = rest.split_at(at);
+        let exponent = exponent(from);
+        // Without an exponent, the character is one of the text.
+        let taken = exponent.map_or(1, |exponent| 1 + exponent.len());
+        let last = runs.len() - 1;
+        runs[last].text.push_str(if exponent.is_some() { before } else { &rest[..=at] });
+        if let Some(exponent) = exponent {
+            runs.push(TextRun { is_raised: true, ..TextRun::new(exponent, face) });
+            runs.push(TextRun::new("", face));
+        }
+        rest = &from[taken..];
+    }
+    let last = runs.len() - 1;
+    runs[last].text.push_str(rest);
+    let is_plain = runs.len() == 1;
+    runs.retain(|run| is_plain || !run.text.is_empty());
+    runs
 }
 
 /// The exponent at the start of a text, after its `^`: a number, a name, or what parentheses enclose, with them.
@@ -404,6 +436,14 @@ mod tests {
             runs.iter().filter(|run| run.is_raised).map(|run| (run.text.as_str(), run.face.is_italic)).collect();
         assert_eq!(raised, [("1.5", false), ("p", true)]);
         assert_eq!(runs.iter().map(|run| run.text.as_str()).collect::<String>(), "µ, (1 + p)1.5 / 2 and 2p. x^");
+        // Also in lines without symbols, of the smallest size, and in those that are broken.
+        let raised = |line: &TextLine| line.text.runs.iter().filter(|run| run.is_raised).count();
+        assert_eq!([raised(&sans("x^2 + y^2 = 1")), raised(&sans("x^ ^2^3"))], [2, 2]);
+        assert_eq!(sans("^ x^2").plain(), "^ x^2");
+        let run = TextRun { is_raised: true, ..TextRun::new("2", Typeface::from(FontFamily::Sans).regular()) };
+        assert!(run.size(MIN_TEXT_SIZE) < 0.8 * MIN_TEXT_SIZE);
+        let broken = sans("one x^2 two x^3").fit_or_wrap(sans("one x^2").text.width());
+        assert_eq!(broken.iter().map(raised).collect::<Vec<_>>(), [1, 1]);
     }
 
     #[test]

@@ -61,9 +61,9 @@ impl TextRun {
 
     /// The font size of the run in a text of a size.
     pub fn size(&self, text_size: f64) -> f64 {
-        /// As large as a lower-case letter of the text.
+        /// As large as a lower-case letter of the text, also of the smallest: one of its full size would be read as a factor.
         const RAISED: f64 = 0.7;
-        if self.is_raised { (RAISED * text_size).max(MIN_TEXT_SIZE.min(text_size)) } else { text_size }
+        if self.is_raised { RAISED * text_size } else { text_size }
     }
 
     /// The height of the run's baseline above that of a text of a size.
