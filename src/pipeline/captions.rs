@@ -51,6 +51,12 @@ impl<'a> Captions<'a> {
         self.with_decimals(cell, measures, more)
     }
 
+    /// What varies between the captions, as far as the grid or the cases give it: derived values follow from that by the formulas on the page.
+    pub fn varying(&self, cell: &Cell) -> Vec<String> {
+        let given = self.parameters.iter().filter(|parameter| parameter.is_given);
+        given.map(|parameter| self.planned.family.caption_dimension(cell, *parameter).to_string()).collect()
+    }
+
     fn with_decimals(&self, cell: &Cell, measures: &[Value], more_decimals: usize) -> [String; 2] {
         let PlannedFamily { family, automatic_caption, .. } = self.planned;
         let [stated, note] = family.format_captions_with(cell, measures, more_decimals);

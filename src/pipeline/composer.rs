@@ -80,7 +80,8 @@ impl<'a> Composer<'a> {
     /// The panel of a cell.
     fn panel<'s>(&self, solved: &'s SolvedCell) -> Panel<'s> {
         let [caption, note] = self.captions.of_solved_cell(solved);
-        let panel = Panel::new(solved).with_caption(caption).with_note(note);
+        let panel =
+            Panel::new(solved).with_caption(caption).with_varying(self.captions.varying(&solved.cell)).with_note(note);
         let panel = panel.with_facts(page::cell_facts(&self.planned.family, solved)).with_ghosts(self.planned.ghosts);
         if self.planned.poses.is_empty() { panel } else { self.with_poses(panel) }
     }

@@ -63,8 +63,36 @@ fn captions_that_are_cut_end_in_an_ellipsis() {
         "[page]\npaper = { width = \"120 mm\", height = \"200 mm\" }\n[[family]]\nid = \"f\"\nlinkage = \"slider-crank\"\npanels = [8, 7]\n\
          grid = { crank = [10, 11, 12, 13, 14, 15, 16], offset = [0, 1, 2, 3, 4, 5, 6, 7], coupler = 40 }\n",
     );
-    assert!(svg.contains("crank = 10"), "{svg}");
-    assert!(svg.matches("…</text>").count() >= 56, "{svg}");
+    assert!(svg.contains(">10, 0</text>") && svg.contains(">16, 7</text>"), "{svg}");
+    assert!(svg.contains(">captions: crank, offset</text>"), "{svg}");
+    // Where nothing varies there is no other caption.
+    let [svg, _] = rendered(
+        "[page]\npaper = { width = \"120 mm\", height = \"200 mm\" }\n[[family]]\nid = \"f\"\nlinkage = \"slider-crank\"\npanels = [8, 7]\n\
+         cases = [{ crank = 10, coupler = 40 }]\ncaption = \"a caption of so many words that a panel as small as this one has no room for them all\"",
+    );
+    assert!(svg.contains(" …</text>"), "{svg}");
+}
+
+#[test]
+fn pages_of_poses_say_that_places_are_outside_their_figures() {
+    // A pole is where two of three poses are turned into each other: far away where they are nearly parallel.
+    for (pose, is_beyond) in [("[18.3, 67.6, 8]", true), ("[18.3, 67.6, -60]", false)] {
+        let [svg, _] = rendered(&format!(
+            "[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\nlayout = \"poses\"\nposes = [[29.8, 59.6, 8.6], [30.7, 67.8, -7.2], {pose}]\n\
+             cases = [{{ frame = 80, crank = 30, coupler = 60, rocker = 70 }}]\n"
+        ));
+        assert_eq!(svg.contains("places further away are left out"), is_beyond, "{pose}");
+    }
+}
+
+/// The two portions of a symmetrical curve take the same input where the motion is symmetrical, too.
+#[test]
+fn portions_with_a_mirror_image_are_there_twice_if_that_takes_as_much_input() {
+    for (linkage, case, has_twin) in [("hoeken", "", true), ("watt", "p = 4, r = 2, s = 2, a = 1, k = 0.5", false)] {
+        let [svg, _] = rendered(&format!("[[family]]\nid = \"f\"\nlinkage = \"{linkage}\"\ncases = [{{ {case} }}]\n"));
+        let said = ["°, twice", ", also mirrored"].map(|words| svg.contains(words));
+        assert_eq!(said, [has_twin, !has_twin], "{linkage}");
+    }
 }
 
 #[test]

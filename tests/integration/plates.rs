@@ -377,6 +377,71 @@ fn small_paper_has_a_key_or_says_what_paper_it_needs() {
 }
 
 #[test]
+fn all_pages_of_a_family_have_the_key_or_none() {
+    // The linkages of the first page have the more symbols.
+    let text = "[atlas]\ntitle = \"T\"\n[page]\npaper = { width = \"105 mm\", height = \"148 mm\" }\n[[family]]\nid = \"f\"\n\
+                linkage = \"four-bar\"\npanels = [2, 2]\nsampling = { samples = 24 }\n\
+                grid = { crank = [1, 1.1, 1.2, 1.3, 2.6, 2.7, 2.8, 2.9] }\nlet = { frame = 3.5, rocker = 3.2, coupler = 3, along = 1.5 }";
+    let plan = plan(text);
+    let has_key = |page: &Page| texts(&page.svg).iter().any(|line| line == "pin of the crank, OA = crank");
+    let pages: Vec<bool> = pages(text, &plan).iter().map(has_key).collect();
+    assert!(pages.len() == 2 && pages[0] == pages[1], "{pages:?}");
+}
+
+#[test]
+fn a_key_with_many_lines_takes_more_of_a_page_with_one_panel() {
+    for paper in [[210, 297], [297, 210]] {
+        let joints: String = (0..30)
+            .map(|k| format!("P{k} = {{ point = [\"A\", \"B\"], along = \"1.5 + {k} / 100\", across = 0.5 }}\n"))
+            .collect();
+        let points: Vec<String> = (0..30).map(|k| format!("\"P{k}\"")).collect();
+        let svg = page_on_paper(
+            paper,
+            &format!(
+                "linkage = \"many\"\ncases = [{{}}]\nsampling = {{ samples = 12 }}\n[[linkage]]\nid = \"many\"\ntrace = [{}]\n\
+                 [linkage.joints]\nO = {{ fixed = [0, 0] }}\nC = {{ fixed = [4, 0] }}\nA = {{ crank = \"O\", length = 1 }}\n\
+                 B = {{ dyad = [\"A\", \"C\"], lengths = [4, 3], side = \"left\" }}\n{joints}",
+                points.join(", ")
+            ),
+        );
+        assert!(texts(&svg).iter().all(|line| !line.contains("more lines")), "{paper:?}: {:?}", texts(&svg));
+        // Paths are in the order of the points.
+        assert!(texts(&svg).iter().any(|line| line.starts_with("path of P0, path of P5, path of P10")));
+    }
+}
+
+#[test]
+fn what_varies_stays_in_the_captions_of_small_panels_and_numbers_are_above_linkages() {
+    let svg = page_on_paper(
+        [210, 297],
+        "linkage = \"four-bar\"\npanels = [14, 10]\nsampling = { samples = 24 }\n\
+         grid = { frame = { from = 3, to = 4.3, step = 0.1 }, rocker = { from = 3, to = 3.9, step = 0.1 } }\n\
+         let = { crank = 1, coupler = 3, along = 1.5, across = 1 }",
+    );
+    let lines = texts(&svg);
+    assert!(
+        ["4.3, 3.9", "captions: frame, rocker"].iter().all(|said| lines.iter().any(|line| line == said)),
+        "{lines:?}"
+    );
+    assert!(lines.iter().all(|line| !line.ends_with('…') || line == "…"), "{lines:?}");
+    let panel = svg.split("class=\"panel\"").nth(1).unwrap();
+    // The scale bar, which is under the linkage, may have the same number.
+    let numbers = panel.split("<text ").filter(|text| text.contains(">1</text>"));
+    let number = numbers.flat_map(|text| attributes(&format!(" {text}"), "y")).fold(f64::INFINITY, f64::min);
+    let joints = attributes(panel, "cy");
+    assert!(joints.iter().all(|y| *y > number), "{number:?} {joints:?}");
+    // Derived values are left out before.
+    let svg = page_on_paper(
+        [210, 297],
+        "linkage = \"evans\"\npanels = [14, 8]\nsampling = { samples = 24 }\nlet = { a = \"(1 + p)^1.5 / 2\" }\n\
+         grid = { p = { from = 2, to = 3.3, step = 0.1 }, k = { from = 1.5, to = 2.2, step = 0.1 } }",
+    );
+    let lines = texts(&svg);
+    assert!(lines.windows(2).any(|pair| pair == ["p = 3.3,", "k = 2.2"]), "{lines:?}");
+    assert!(lines.iter().any(|line| line == "captions that do not fit: what varies"), "{lines:?}");
+}
+
+#[test]
 fn joints_have_one_size_on_a_page_and_texts_keep_to_its_margins() {
     // The first crank is too short to be seen between the smallest joints.
     let svg = page_on_paper(

@@ -6,7 +6,6 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::super::{Error, Options, check_interrupt};
-use super::assignment::{assignment, range};
 use super::part::{BookFamily, FamilyPart};
 use crate::manifest::{FindingCharts, Plan};
 use crate::pipeline::{Composer, curves_by_page};
@@ -79,10 +78,9 @@ pub(super) fn finding_charts(
         return Ok(Vec::new());
     }
     let mut drawn = draw_cells(family, &cells, options)?;
-    let names = &planned.family.names;
     let label = |axis: usize, k: usize| {
         let value = axes[axis].values.get(k).unwrap_or(f64::NAN);
-        assignment(names, axes[axis].slot, value)
+        planned.family.equation(axes[axis].slot, value).to_string()
     };
     let shown = note(family, drawn.values());
     // The charts of a value need the ranges of the others, or else numbers, if they are divided.
@@ -93,7 +91,8 @@ pub(super) fn finding_charts(
         let value = if let [_, _, axis] = varying[..] { Some(label(axis, page[0])) } else { None };
         let ranges = grid.part_ranges(page).into_iter().map(|(axis, indices)| {
             let values = &axes[axis].values;
-            range(names, axes[axis].slot, indices.filter_map(|k| values.get(k)))
+            let values = indices.filter_map(|k| values.get(k));
+            planned.family.equation_of_range(axes[axis].slot, values).to_string()
         });
         let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).collect();
         let number = (is_divided && varying.len() < 2).then(|| format!("({part})"));
@@ -104,16 +103,20 @@ pub(super) fn finding_charts(
             [Some(title).filter(|title| !title.is_empty()), number].into_iter().flatten().collect::<Vec<_>>().join(" ");
         let (rows, columns) = grid.labels(page, &label);
         let cell = |(cell, place): (usize, [usize; 2])| {
-            let label = match varying[..] {
-                [] => captions.of_cell(&planned.family.cell(cell), &[])[0].clone(),
-                [axis] => label(axis, grid.index(cell, axis)),
-                _ => String::new(),
+            let (label, varying) = match varying[..] {
+                [] => {
+                    let cell = planned.family.cell(cell);
+                    let [caption, _] = captions.of_cell(&cell, &[]);
+                    (caption, captions.varying(&cell))
+                }
+                [axis] => (label(axis, grid.index(cell, axis)), Vec::new()),
+                _ => Default::default(),
             };
             let (pages, bar) = drawn.remove(&cell).unwrap_or((Vec::new(), ScaleBar::Round(None)));
-            FindingCell { place, label, pages, bar }
+            FindingCell { place, label, varying, pages, bar }
         };
         let cells = placed.into_iter().map(cell).collect();
-        FindingChart { title, note: shown.clone(), symbols: names.clone(), columns, rows, cells }
+        FindingChart { title, note: shown.clone(), symbols: planned.family.names.clone(), columns, rows, cells }
     };
     Ok(pages.into_iter().map(chart).collect())
 }

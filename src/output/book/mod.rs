@@ -3,7 +3,6 @@
 //! The book is written whole if any page of it has changed. First its cells are surveyed, unless they have been while the tables
 //! were written: pages in front of the plates say where curves are that are found only then.
 
-mod assignment;
 mod charts;
 mod lists;
 mod part;
@@ -343,7 +342,8 @@ fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
         scale => scale,
     };
     let mut small = plan.clone();
-    small.page.paper = Paper { width: part * plan.page.paper.width, height: part * plan.page.paper.height };
+    let Paper { width, height } = plan.page.paper;
+    small.page = small.page.with_paper(Paper { width: part * width, height: part * height }).for_specimen();
     let shown = PlannedFamily { layout, scale, ..planned.clone() };
     let composer = Composer::new(&small, &shown, 1);
     let solver = chapter.family.page_solver();

@@ -4,7 +4,6 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::super::survey::FamilySurvey;
 use super::super::{Error, Options, check_interrupt};
-use super::assignment::assignment;
 use super::sections::{self, ListedCell};
 use crate::manifest::BookPlan;
 use crate::pipeline::{Composer, FamilyPipeline, build_chart, measures_used_on_pages};
@@ -196,7 +195,7 @@ impl<'a> FamilyPart<'a> {
         for (k, cell) in self.cells.iter().enumerate() {
             let value = family.cell(cell).values.get(axis.slot).copied().unwrap_or(f64::NAN);
             if tabs.last().is_none_or(|(last, _)| *last != value) {
-                let label = assignment(&family.names, axis.slot, value);
+                let label = family.equation(axis.slot, value).to_string();
                 tabs.push((value, Tab { number: None, label, first_page: self.pages_before + self.first_page(k) }));
             }
             if tabs.len() > MOST_TABS {

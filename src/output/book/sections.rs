@@ -1,6 +1,5 @@
 //! The sections of a chapter in the contents: ranges of dimensions with their pages.
 
-use super::assignment::{assignment, range};
 use coupler_curves::family::{Family, ParameterSpace};
 use coupler_drawing::page::book::CellEntry;
 
@@ -39,11 +38,9 @@ pub(super) fn of_cells(cells: &[ListedCell], family: &Family) -> Vec<(CellEntry,
     let depth = depths.take_while(|depth| groups(*depth).len() <= MAX_SECTIONS).last().unwrap_or(0);
     let section = |cells: &[ListedCell]| {
         let values = |slot: usize| cells.iter().filter_map(move |cell| cell.values.get(slot).copied());
-        let fixed = varying[..depth]
-            .iter()
-            .map(|&slot| assignment(&family.names, slot, values(slot).next().unwrap_or(f64::NAN)));
-        let ranges = varying[depth..].iter().take(MAX_NAMES).map(|&slot| range(&family.names, slot, values(slot)));
-        let caption = fixed.chain(ranges).collect::<Vec<_>>().join(", ");
+        let range = |&slot: &usize| family.equation_of_range(slot, values(slot)).to_string();
+        // Those by which the sections are divided have one value each.
+        let caption = varying.iter().take(depth + MAX_NAMES).map(range).collect::<Vec<_>>().join(", ");
         let last = cells.iter().map(|cell| cell.last_page).max()?;
         (!caption.is_empty()).then_some((CellEntry { caption, page: cells.first()?.entry.page }, last))
     };

@@ -255,6 +255,37 @@ fn charts_have_all_curves_with_their_points_and_scales_and_captions_of_cases() {
 }
 
 #[test]
+fn finding_charts_and_contents_have_names_as_printed_units_and_what_varies() {
+    let book = Atlas::new(
+        "[atlas]\ntitle = \"T^2\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\npaper = { width = \"105 mm\", height = \"148 mm\" }\n\
+         [book]\nfinding_charts = true\nlist = []\nindex = false\n\
+         [[family]]\nid = \"turned\"\nlinkage = \"turned\"\nsampling = { samples = 24 }\npanels = [1, 1]\n\
+         grid = { foot_along = [3, 3.5], phi = [10, \"0.5 rad\"] }\n\
+         [[family]]\nid = \"evans\"\nlinkage = \"evans\"\nsampling = { samples = 24 }\npanels = [1, 1]\n\
+         cases = [{ p = 2, k = 1.5 }, { p = 3, k = 2 }, { p = 4, k = 2 }]\nlet = { a = \"(1 + p)^1.5 / 2\" }\n\
+         caption = \"frame p = {p}, coupler and rocker of this linkage a = {a:.4}, the coupler point is at k = {k} times a, from there\"\n\
+         [[linkage]]\nid = \"turned\"\nparameters = { foot_along = { default = 3 }, phi = { default = 0, kind = \"angle\", unit = \"deg\" } }\n\
+         trace = [\"M\"]\n[linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [\"foot_along\", 0] }\n\
+         A = { crank = \"O\", length = 1 }\nB = { dyad = [\"A\", \"C\"], lengths = [3, 3], side = \"left\" }\n\
+         M = { point = [\"A\", \"B\"], along = \"cos(rad(phi))\", across = 1 }\n",
+    );
+    let (code, _, err) = book.run(&[]);
+    assert_eq!(code, 0, "{err}");
+    let pdf = Pdf::read(&fs::read(book.out().join("atlas.pdf")).unwrap());
+    let find = |title: &str| pdf.outline().into_iter().find(|(_, name, _)| name == title).unwrap().2;
+    let said = |page: usize| -> String {
+        let texts: Vec<String> = pdf.contents(page).texts.into_iter().map(|(text, ..)| text).collect();
+        texts.concat().replace(' ', "")
+    };
+    let chart = find("Finding charts");
+    for label in ["footalong=3.5", "phi=10°", "phi≈28.6479°"] {
+        assert!([find("Contents"), chart].iter().all(|page| said(*page).contains(label)), "{label}: {}", said(chart));
+    }
+    let cases = said(chart + 1);
+    assert!(cases.contains("p=2,k=1.5") && cases.contains("p=4,k=2") && !cases.contains("coupler"), "{cases}");
+}
+
+#[test]
 #[ignore = "thorough"]
 fn every_page_has_one_number_at_its_outer_corner_and_marks_of_the_thumb_index() {
     let Book { pdf, parts, .. } = &*BOOK;

@@ -132,6 +132,15 @@ impl Family {
         self.equation_of(slot, given_number(value, None))
     }
 
+    /// A name, by its index, with its values from the least to the greatest, as [`Family::equation`] has them: "p = 2.5 to 4"; with its only value if
+    /// they are equal.
+    pub fn equation_of_range(&self, slot: usize, values: impl Iterator<Item = f64>) -> MathText {
+        let [least, greatest] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let [first, last] = [least, greatest].map(|value| given_number(value, None));
+        let to = if least == greatest { String::new() } else { format!("{} to {}", self.unit(slot), last.1) };
+        self.equation_of(slot, (first.0 || last.0, first.1 + &to))
+    }
+
     fn equation_of(&self, slot: usize, (is_rounded, number): (bool, String)) -> MathText {
         let (sign, number) = (if is_rounded { '≈' } else { '=' }, number.replace('-', "−"));
         MathText::from_name(&self.names[slot]).with_words(format!(" {sign} {number}{}", self.unit(slot)))

@@ -15,6 +15,8 @@ pub(super) struct BodyDrawing {
     drawings: Vec<Drawing>,
     /// The texts, each with the points that it may be beside, the best first.
     labels: Vec<(Vec<Point>, String)>,
+    /// Whether some places are outside the frame, and left out.
+    pub has_places_beyond: bool,
 }
 
 /// The parts of the length of axes that are tried in turn.
@@ -28,12 +30,14 @@ impl BodyDrawing {
         let on_page = |p: &Point| plot.page_from_plane.apply(*p);
         let mut drawings = Vec::new();
         let mut labels = Vec::new();
+        let mut has_places_beyond = false;
         for places in &body.places {
             let mut items = Vec::new();
             let lines = places.lines.iter().map(|line| line.iter().map(on_page).collect::<Vec<Point>>());
             let polylines = lines.flat_map(|line| within(&line, &frame)).collect();
             items.push(Item::Path(Path { polylines, stroke: Some(places.stroke(theme)), fill: None }));
             for (at, name) in places.marks.iter().map(|(at, name)| (on_page(at), name)) {
+                has_places_beyond |= !frame.contains(&at);
                 if frame.contains(&at) {
                     items.push(mark_item(at, places.ink(theme), theme));
                     labels.push((vec![at], name.clone()));
@@ -59,7 +63,7 @@ impl BodyDrawing {
         // The numbers of the poses are placed first.
         let numbers = numbered.map(|(number, axes)| (vec![axes.origin, axes.x, axes.y], number.to_string()));
         let labels = numbers.chain(labels.into_iter().filter(|(_, name)| !name.is_empty())).collect();
-        BodyDrawing { drawings, labels }
+        BodyDrawing { drawings, labels, has_places_beyond }
     }
 
     /// Adds what is drawn to the obstacles of labels.

@@ -3,10 +3,9 @@
 use super::Paper;
 use super::balanced_grid::balanced_grid;
 use super::heading::contents_size;
-use super::key_drawing::{self, Beside};
-use super::rect::Rect;
+use super::key_division::{self, Beside};
 use super::theme::Theme;
-use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::geometry::Vector;
 
 /// The least width and height of a chart, in ems of a caption.
 const LEAST: [f64; 2] = [18.0, 12.0];
@@ -32,9 +31,9 @@ pub(super) fn beside_key(grid: [usize; 2]) -> Beside {
 pub(super) fn for_charts(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MAX_CHARTS: usize = 6;
     const ASPECT_RATIO: f64 = 1.5;
-    let contents = Rect { corner: Point::origin(), size: contents_size(paper, theme) };
-    let (charts, _) = key_drawing::divide(contents, beside_key([1, 1]), None, theme);
-    balanced_grid(contents.size, max_in(charts.size, theme), count.min(MAX_CHARTS), ASPECT_RATIO)
+    let contents = contents_size(paper, theme);
+    let charts = key_division::beside(contents, beside_key([1, 1]), theme);
+    balanced_grid(contents, max_in(charts, theme), count.min(MAX_CHARTS), ASPECT_RATIO)
 }
 
 #[cfg(test)]

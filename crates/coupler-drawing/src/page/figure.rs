@@ -154,7 +154,7 @@ impl<'a> Figure<'a> {
 
     /// Draws the figure in a frame of an area, with the linkage at a scale in millimetres to a unit, or as large as it fits.
     /// The first theme is for curves that are drawn apart from the linkage, the second for all else. The result is the greatest scale at
-    /// which the linkage fits.
+    /// which the linkage fits, and whether places of its body are outside the frame.
     pub fn draw(
         &self,
         area: &impl Area,
@@ -162,7 +162,7 @@ impl<'a> Figure<'a> {
         (arrangement, scale, period): (Arrangement, Option<f64>, f64),
         page: &PanelPage,
         [curve_theme, theme]: [&Theme; 2],
-    ) -> f64 {
+    ) -> (f64, bool) {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
         let in_dashes = |plot: &Plot,
@@ -195,6 +195,7 @@ impl<'a> Figure<'a> {
             let curves: Vec<&MeasuredCurve> = self.solved_cell.curves.iter().collect();
             in_dashes(&key, &curves, (obstacles, Some(&body)), theme);
             draw_linkage(area, linkage);
+            (fitting, body.has_places_beyond)
         } else {
             self.draw_key_curves(area, &key, theme);
             draw_linkage(area, self.linkage_items(&key, theme));
@@ -215,8 +216,8 @@ impl<'a> Figure<'a> {
                     curve_theme,
                 );
             }
+            (fitting, false)
         }
-        fitting
     }
 
     /// Draws the curves as hairlines with dashes, and their coupler points.
@@ -429,18 +430,21 @@ impl<'a> Figure<'a> {
             let curves = solved.curves.iter().filter(|curve| self.style_index(curve) % inks == style);
             let curves: Vec<&MeasuredCurve> = curves.collect();
             let Some(first) = curves.first() else { break };
-            let mut names: Vec<String> = curves.iter().filter_map(|curve| marks::path_name(solved, curve)).collect();
-            names.sort();
-            names.dedup();
-            let mut numbers: Vec<String> =
-                curves.iter().map(|curve| (self.style_index(curve) + 1).to_string()).collect();
+            // In the order of the curves, so that M2 is before M10.
+            let mut names: Vec<String> = Vec::new();
+            for name in curves.iter().filter_map(|curve| marks::path_name(solved, curve)) {
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+            let mut numbers: Vec<usize> = curves.iter().map(|curve| self.style_index(curve) + 1).collect();
             numbers.dedup();
             let noun = if solved.linkage.traced.len() > 1 { "traced point" } else { "circuit" };
             let what = match numbers.len() {
                 _ if !names.is_empty() => names.join(", "),
                 1 if style == 0 => continue,
                 1 => format!("{ordinal} {noun}"),
-                _ => format!("{noun}s {}", numbers.join(", ")),
+                _ => format!("{noun}s {}", numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
             };
             add(Mark::Dashes(self.curve_ink(first, theme)), &what);
         }

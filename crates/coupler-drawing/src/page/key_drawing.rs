@@ -4,7 +4,6 @@ use super::area::Area;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
-use super::heading;
 use super::key::Key;
 use super::labels::{LabelPlacer, Obstacles};
 use super::mechanism::PosedMechanism;
@@ -12,7 +11,6 @@ use super::plot::Plot;
 use super::pose;
 use super::rect::Rect;
 use super::theme::Theme;
-use super::{Options, Paper};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Group, Item, MIN_TEXT_SIZE, Text};
 use coupler_curves::expression::{MathText, displayed_name};
@@ -21,87 +19,16 @@ use coupler_curves::linkage::{JointId, JointKind, Linkage};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
 /// The width of a line of text of the key, in ems of a note.
-const COLUMN_WIDTH: f64 = 24.0;
+pub(super) const COLUMN_WIDTH: f64 = 24.0;
+
+/// The distance from a line of the key to the next, in ems.
+pub(super) const LEADING: f64 = 1.42;
 
 /// The part of the width of a strip that its drawing takes, at most.
-const STRIP_DRAWING_PART: f64 = 0.4;
+pub(super) const STRIP_DRAWING_PART: f64 = 0.4;
 
 /// The greatest width of a name at a joint, as a part of the drawing.
 const MAX_NAME_PART: f64 = 0.3;
-
-/// What a key is drawn beside: panels or charts in columns and rows, with the least size of one.
-#[derive(Clone, Copy)]
-pub(super) struct Beside {
-    pub grid: [usize; 2],
-    /// The least width and height of one, in ems of a caption.
-    pub least: [f64; 2],
-    /// The same where the key takes more than the usual part of its page.
-    pub least_on_small_paper: [f64; 2],
-}
-
-impl Beside {
-    /// Whether all have the least size in contents of a size.
-    fn fits(self, size: Vector, is_small: bool, theme: &Theme) -> bool {
-        let em = theme.for_panel_size(Vector::zeros()).caption_size;
-        let least = if is_small { self.least_on_small_paper } else { self.least };
-        (0..2).all(|k| size[k] >= self.grid[k] as f64 * least[k] * em)
-    }
-}
-
-/// Divides the contents of a page into the part for panels and that for the key: a column on the right of a wide page,
-/// a strip at the foot of a high one. `None` for the key if it would leave too little to the panels.
-pub(super) fn divide(contents: Rect, beside: Beside, key: Option<&Key>, theme: &Theme) -> (Rect, Option<Rect>) {
-    /// The part of the page that the key takes, and the most that it takes where the panels are large enough.
-    const PARTS: [f64; 2] = [0.36, 0.56];
-    let em = theme.note_size;
-    let is_wide = contents.size.x > 1.1 * contents.size.y;
-    let (whole, usual) =
-        if is_wide { (contents.size.x, COLUMN_WIDTH * em) } else { (contents.size.y, 1.1 * COLUMN_WIDTH * em) };
-    let is_small = usual > PARTS[0] * whole;
-    let needed = match key.filter(|_| is_small && !is_wide) {
-        // A strip is no higher than its lines.
-        Some(key) => strip_height(contents.size.x, key, theme).min(usual),
-        None => usual,
-    };
-    let along = |length: f64| if is_wide { Vector::new(length, 0.0) } else { Vector::new(0.0, length) };
-    let panels = Rect { size: contents.size - along(needed + em), ..contents };
-    if needed > PARTS[1] * whole || !beside.fits(panels.size, is_small, theme) {
-        return (contents, None);
-    }
-    let key = Rect { corner: contents.corner + along(whole - needed), size: contents.size - along(whole - needed) };
-    (panels, Some(key))
-}
-
-/// The height of a strip with the lines of a key.
-fn strip_height(width: f64, key: &Key, theme: &Theme) -> f64 {
-    /// The least height, in ems, and the remarks on the drawing that are added to those of the key.
-    const LEAST: f64 = 15.0;
-    const MORE_REMARKS: f64 = 3.0;
-    let em = theme.note_size;
-    let text = (1.0 - STRIP_DRAWING_PART) * width - em - theme.margin;
-    let lines = lines_height(text, &[], key, theme) + MORE_REMARKS * KeyLines::LEADING * em;
-    theme.margin + lines.max(LEAST * em)
-}
-
-/// What is said on a page whose key is left out, as its panels leave no room to it in contents of this size.
-pub(super) fn left_out_note(contents: Vector, beside: Beside, key: &Key, options: &Options) -> String {
-    /// Papers are larger in steps of this, in millimetres.
-    const STEP: f64 = 5.0;
-    let own = options.paper;
-    let taken = heading::contents_size(own, &options.theme.for_paper(own)) - contents;
-    let larger = (1..=60).map(|k| {
-        let side = |side: f64| (side * (1.0 + 0.05 * f64::from(k)) / STEP).ceil() * STEP;
-        Paper { width: side(own.width), height: side(own.height) }
-    });
-    let has_room = |paper: &Paper| {
-        let theme = &options.theme.for_paper(*paper);
-        let contents = Rect { corner: Point::origin(), size: heading::contents_size(*paper, theme) - taken };
-        divide(contents, beside, Some(key), theme).1.is_some()
-    };
-    let paper = larger.into_iter().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
-    let paper = paper.map_or("larger paper".to_owned(), |size| format!("paper of {size}"));
-    format!("the key is left out: it needs {paper} or fewer figures")
-}
 
 /// The figure whose linkage a key shows: the first of those with the most joints, as a joint at an offset of 0 is not drawn, in which no
 /// two are close together, or else the one of them in which they are furthest apart.
@@ -128,16 +55,7 @@ fn least_distance(mechanism: &PosedMechanism, circuit: &Circuit) -> f64 {
 
 /// Draws a key in a rectangle, with the linkage of the clearest of some figures.
 pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure], theme: &Theme) {
-    let em = theme.note_size;
-    let is_column = rect.size.x < 1.4 * rect.size.y;
-    let drawing = match is_column {
-        true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
-        false => Vector::new((1.2 * rect.size.y).min(STRIP_DRAWING_PART * rect.size.x), rect.size.y),
-    };
-    let text_corner = match is_column {
-        true => rect.corner + Vector::new(0.0, drawing.y + em),
-        false => rect.corner + Vector::new(drawing.x + em, 0.0),
-    };
+    let (drawing, text) = drawing_and_text(rect, theme);
     let mut key = key.clone().with_common_pins(&common_pins(figures));
     key.is_numbered = needs_numbers(&key, drawing.x, theme);
     if let Some((figure, mechanism)) =
@@ -169,9 +87,33 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
         key.remarks
             .push("sides are those shown here; a joint changes its side where it passes a dead point".to_owned());
     }
-    let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
     draw_lines(area, text, &[], &key, theme);
 }
+
+/// The size of the drawing at the upper left of a key, and the rectangle of its lines.
+fn drawing_and_text(rect: Rect, theme: &Theme) -> (Vector, Rect) {
+    let em = theme.note_size;
+    let is_column = rect.size.x < 1.4 * rect.size.y;
+    let drawing = match is_column {
+        true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
+        false => Vector::new((1.2 * rect.size.y).min(STRIP_DRAWING_PART * rect.size.x), rect.size.y),
+    };
+    let before = match is_column {
+        true => Vector::new(0.0, drawing.y + em),
+        false => Vector::new(drawing.x + em, 0.0),
+    };
+    (drawing, Rect { corner: rect.corner + before, size: rect.size - before })
+}
+
+/// Whether all lines of a key fit a rectangle at their smallest size, with some remarks on its drawing.
+pub(super) fn has_all_lines(rect: Rect, key: &Key, theme: &Theme) -> bool {
+    let (_, text) = drawing_and_text(rect, theme);
+    let lines = KeyLines::new(text, &[], key, MIN_TEXT_SIZE.min(theme.note_size), theme);
+    lines.rows.len() + MORE_REMARKS <= lines.capacity()
+}
+
+/// The lines of the remarks on the drawing that are added to those of a key.
+pub(super) const MORE_REMARKS: usize = 3;
 
 /// Whether a drawing of a width has the numbers of the joints, as a name is too long for it.
 pub(super) fn needs_numbers(key: &Key, width: f64, theme: &Theme) -> bool {
@@ -212,7 +154,7 @@ pub(super) fn draw_lines(area: &impl Area, rect: Rect, dimensions: &[MathText], 
 pub(super) fn lines_height(width: f64, dimensions: &[MathText], key: &Key, theme: &Theme) -> f64 {
     let em = theme.note_size;
     let column = Rect { corner: Point::origin(), size: Vector::new(width, em) };
-    KeyLines::LEADING * em * (KeyLines::new(column, dimensions, key, em, theme).rows.len() as f64 + 1.0)
+    LEADING * em * (KeyLines::new(column, dimensions, key, em, theme).rows.len() as f64 + 1.0)
 }
 
 /// The lines of a key at a size of text.
@@ -273,12 +215,9 @@ impl KeyLines {
             let wrapped = text.wrap(width);
             rows.extend(wrapped.iter().map(|part| (None, line(&MathText::from_words(part.as_str()), theme.grey), 0.0)));
         }
-        let per_column = ((rect.size.y / (KeyLines::LEADING * em)).floor() as usize).max(1);
+        let per_column = ((rect.size.y / (LEADING * em)).floor() as usize).max(1);
         KeyLines { em, columns: columns as usize, per_column, width, rows, first_remark }
     }
-
-    /// The distance from a line to the next, in ems.
-    const LEADING: f64 = 1.42;
 
     /// The number of lines that the rectangle has.
     fn capacity(&self) -> usize {
@@ -286,7 +225,7 @@ impl KeyLines {
     }
 
     fn draw(&self, area: &impl Area, rect: Rect, theme: &Theme) {
-        let (em, step) = (self.em, KeyLines::LEADING * self.em);
+        let (em, step) = (self.em, LEADING * self.em);
         let left_out = match self.rows.len() > self.capacity() {
             true => self.rows.len() + 1 - self.capacity(),
             false => 0,

@@ -21,6 +21,7 @@ pub(super) const PAGE_MEASURES: MeasureSet = MeasureSet::EMPTY
     .with(Measure::MU_WORST)
     .with(Measure::LENGTH)
     .with(Measure::STRAIGHT_LENGTH)
+    .with(Measure::STRAIGHT_TWIN)
     .with(Measure::SYMMETRY)
     .with(Measure::TOLERANCE_WORST);
 
@@ -45,7 +46,12 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = solved.linkage.input().unit_sign();
         // The input may pass the mirror image in another range.
-        let image = mirrored_portion(solved, curve, portion).map_or("", |_| ", also mirrored");
+        let image = mirrored_portion(solved, curve, portion);
+        let image = match image {
+            None => "",
+            Some(_) if has_equal_twin(solved, curve, portion) => ", twice",
+            Some(_) => ", also mirrored",
+        };
         let length = format_with_digits(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
         let path = match path_name(solved, curve) {
@@ -190,6 +196,31 @@ fn mirrored_portion(solved: &SolvedCell, curve: &MeasuredCurve, portion: &Straig
     let image_end = *image.first()?;
     let nearest = (image_end - first).norm().min((image_end - last).norm());
     (nearest > END_ACCURACY * portion.length).then_some(image)
+}
+
+/// Whether the mirror image of a portion takes as much input as the portion, from where its twin begins: the samples in that range are those on the image.
+fn has_equal_twin(solved: &SolvedCell, curve: &MeasuredCurve, portion: &StraightPortion) -> bool {
+    /// The samples at the ends that rounding may leave out.
+    const ENDS: usize = 2;
+    let is_known = || {
+        let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric)?;
+        let start = curve.measure(Measure::STRAIGHT_TWIN)?;
+        let (first, last) = (*portion.points.first()?, *portion.points.last()?);
+        let along = (last - first).try_normalize(0.0)?;
+        let circuit = solved.circuit(curve);
+        let is_on_image = |p: Point| {
+            let off = axis.mirror(p) - first;
+            let (along, across) = (along.dot(&off), (off - along * along.dot(&off)).norm());
+            (0.0..=(last - first).norm()).contains(&along) && across <= 2.0 * portion.deviation + 1e-9 * portion.length
+        };
+        let is_in_range = |input: f64| {
+            let from_start = if circuit.is_full_turn() { (input - start).rem_euclid(360.0) } else { input - start };
+            (0.0..=portion.input_span).contains(&from_start)
+        };
+        let samples = circuit.inputs.iter().zip(circuit.points(curve.joint));
+        Some(samples.filter(|(input, p)| is_in_range(**input) != is_on_image(*p)).count() <= ENDS)
+    };
+    is_known().unwrap_or(false)
 }
 
 /// The straight portion of a curve, if it is long enough to be seen, at least a fiftieth of the extent of the curve, and is

@@ -13,17 +13,24 @@ pub struct Options {
     pub dash_deg: f64,
     /// Colours, weights, sizes and typeface, for tabloid paper.
     pub theme: Theme,
+    /// Whether pages are shown in others: what they need is not said.
+    pub is_specimen: bool,
 }
 
 impl Options {
     /// The default options on a paper: dashes of 5 degrees, ink on cream.
     pub fn for_paper(paper: Paper) -> Options {
-        Options { paper, dash_deg: 5.0, theme: Theme::default() }
+        Options { paper, dash_deg: 5.0, theme: Theme::default(), is_specimen: false }
     }
 
     /// The options on another paper.
     pub fn with_paper(self, paper: Paper) -> Options {
         Options { paper, ..self }
+    }
+
+    /// The options of pages that are shown in others.
+    pub fn for_specimen(self) -> Options {
+        Options { is_specimen: true, ..self }
     }
 
     /// The options with another range of the input for a dash and its gap, in degrees.

@@ -16,6 +16,8 @@ pub struct Panel<'a> {
     pub solved_cell: &'a SolvedCell,
     /// The line under the figure; may be empty.
     pub caption: String,
+    /// The parts of it that differ between the panels of a page, as in "p = 2": they stay where the caption does not fit; may be empty.
+    pub varying: Vec<String>,
     /// A smaller line under the caption; may be empty.
     pub note: String,
     /// Measured facts about the cell, as [`cell_facts`](super::cell_facts) gives them; may be empty.
@@ -34,6 +36,7 @@ impl<'a> Panel<'a> {
         Panel {
             solved_cell,
             caption: String::new(),
+            varying: Vec::new(),
             note: String::new(),
             facts: Default::default(),
             pose: PoseChoice::default(),
@@ -45,6 +48,11 @@ impl<'a> Panel<'a> {
     /// The panel with a caption.
     pub fn with_caption(self, caption: impl Into<String>) -> Panel<'a> {
         Panel { caption: caption.into(), ..self }
+    }
+
+    /// The panel with the parts of its caption that stay where it does not fit, as in "p = 2".
+    pub fn with_varying(self, varying: Vec<String>) -> Panel<'a> {
+        Panel { varying, ..self }
     }
 
     /// The panel with a smaller line under its caption.

@@ -3,16 +3,18 @@
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
 use super::balanced_grid::balanced_grid;
-use super::element::{Drawing, TextLine};
+use super::element::Drawing;
 use super::figure::{self, Figure};
 use super::heading::{contents_size, margins};
 use super::key::Key;
-use super::key_drawing::{self, Beside};
+use super::key_division::{self, Beside};
+use super::key_drawing;
+use super::panel_texts::{self, PanelTexts};
 use super::plot::is_reduced;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{Options, Panel, PanelPage, PanelScale, Paper};
+use super::{Options, PanelPage, PanelScale, Paper};
 use crate::scene::{Anchor, Color, Group, Item};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
@@ -32,33 +34,50 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         let size = Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y));
         Rect { corner: Point::new(side, top), size }
     };
-    let whole = contents(&symbols);
     let beside = beside_key(page.layout.grid());
-    let (mut panels, key) = match page.key {
-        Some(key) => key_drawing::divide(whole, beside, Some(key), theme),
-        None => (whole, None),
-    };
-    if let (Some(of_page), None, false) = (page.key, key, symbols.is_empty()) {
-        let meaning = key_drawing::left_out_note(whole.size, beside, of_page, options);
+    // Whether there is room for the key is decided for all pages of a family alike, whatever symbols they have.
+    let usual = contents(&usual_symbols(page, theme)).size;
+    let has_key = page.key.is_some_and(|key| key_division::has_room(usual, beside, Some(key), theme));
+    if let (Some(key), false, false) = (page.key, has_key, symbols.is_empty() || options.is_specimen) {
+        let meaning = key_division::left_out_note(usual, beside, key, options);
         symbols.push(Symbol { mark: Mark::Letter("…"), meaning });
-        panels = contents(&symbols);
     }
+    let divided = |symbols: &[Symbol]| match page.key.filter(|_| has_key) {
+        Some(key) => {
+            let (panels, key) = key_division::divide(contents(symbols), beside, key, theme);
+            (panels, Some(key))
+        }
+        None => (contents(symbols), None),
+    };
+    let panel_texts = |panels: Rect| {
+        let [columns, rows] = page.layout.grid();
+        PanelTexts::new(page, &figures, panels.size.component_div(&Vector::new(columns as f64, rows as f64)), theme)
+    };
+    let (mut panels, mut key) = divided(&symbols);
+    let mut texts = panel_texts(panels);
+    if let (Some(meaning), false) = (texts.form.meaning(&texts.varying), symbols.is_empty()) {
+        symbols.push(Symbol { mark: Mark::Letter("…"), meaning });
+        (panels, key) = divided(&symbols);
+        texts = panel_texts(panels);
+    }
+    let (has_facts, has_notes) = (texts.has_facts, texts.has_notes);
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
-    let drawn = draw_panels(&area, page, &figures, period, theme);
+    let drawn = draw_panels(&area, page, &figures, period, texts);
     let mut has_formulas = false;
     if let (Some(key), Some(rect)) = (page.key, key) {
         let figures: Vec<&Figure> = figures.iter().flatten().collect();
         // Where the numbers are left out, the formulas are in the key.
-        let note = key.note.clone().filter(|_| !drawn.has_notes);
+        let note = key.note.clone().filter(|_| !has_notes);
         has_formulas = note.is_some();
         let key = Key { note, ..key.clone() };
-        key_drawing::draw(root, rect.inset(0.5 * theme.margin), &key, &figures, theme);
+        key_drawing::draw(root, rect, &key, &figures, theme);
     }
     symbols.retain(|symbol| match symbol.meaning.as_str() {
-        TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
+        TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => has_facts,
         NOT_ENLARGED => drawn.has_enlarged,
-        NOTES_LEFT_OUT => !drawn.has_notes && !has_formulas,
+        PLACES_BEYOND => drawn.has_places_beyond,
+        NOTES_LEFT_OUT => !has_notes && !has_formulas,
         _ => true,
     });
     let scale = symbols::scale_bar(drawn.common_scale(), common_crank(&figures), page.heading.unit);
@@ -90,6 +109,22 @@ fn layout_symbols(
     symbols::at_foot(root.size(), &page.heading, &explained, theme)
 }
 
+/// The symbols that pages of panels have as a rule, with the widest texts.
+fn usual_symbols(page: &PanelPage, theme: &Theme) -> Vec<Symbol> {
+    let straight = page.key.map_or("", |key| &key.straight);
+    let meanings = [
+        (Mark::CrankPivot, "crank's pivot"),
+        (Mark::Pivot, "fixed pivot"),
+        (Mark::TracedPoint(theme.ink), "traced point"),
+        (Mark::Dashes(theme.ink), "dash and gap: 5° of input"),
+        (Mark::Start(theme.ink), "start and direction"),
+        (Mark::Tick(theme.ink), "every 30° of input"),
+        (Mark::Band(theme.ink), straight),
+        (Mark::Letter("μ"), TRANSMISSION_ANGLE),
+    ];
+    meanings.map(|(mark, meaning)| Symbol { mark, meaning: meaning.to_owned() }).to_vec()
+}
+
 /// The symbols of all figures of a page, each once, and those of the texts under them.
 fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], period: f64, theme: &Theme) -> Vec<Symbol> {
     let mut symbols: Vec<Symbol> = Vec::new();
@@ -113,6 +148,9 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], period: f64, theme
     if has("μ") {
         add(Mark::Letter("μ"), if has("reaches") { LIMITS_OF_TRANSMISSION } else { TRANSMISSION_ANGLE });
     }
+    if page.panels.iter().any(|panel| panel.body.places.iter().any(|places| !places.marks.is_empty())) {
+        add(Mark::Letter("…"), PLACES_BEYOND);
+    }
     if page.panels.iter().any(|panel| !panel.note.is_empty()) {
         add(Mark::Letter("…"), NOTES_LEFT_OUT);
     }
@@ -128,6 +166,9 @@ const LIMITS_OF_TRANSMISSION: &str = "transmission angle; at 0° and 180° coupl
 /// What the light curve on a linkage means whose curve is drawn apart from it.
 const NOT_ENLARGED: &str = "curve at the scale of the linkage";
 
+/// What is said where places of a body are outside their frame.
+const PLACES_BEYOND: &str = "places further away are left out";
+
 /// What is said where the notes of panels are left out.
 const NOTES_LEFT_OUT: &str = "notes that need larger panels are left out";
 
@@ -137,12 +178,10 @@ struct DrawnPanels {
     scale: Option<f64>,
     /// The greatest scale at which all linkages fit.
     fitting_scale: f64,
-    /// Whether the facts of the cells are under the figures.
-    has_facts: bool,
-    /// Whether the notes of the cells are there.
-    has_notes: bool,
     /// Whether a curve is drawn apart from its linkage.
     has_enlarged: bool,
+    /// Whether places of a body are outside their frame.
+    has_places_beyond: bool,
 }
 
 impl DrawnPanels {
@@ -158,39 +197,21 @@ fn draw_panels<A: Area>(
     page: &PanelPage,
     figures: &[Option<Figure>],
     period: f64,
-    theme: &Theme,
+    texts: PanelTexts,
 ) -> DrawnPanels {
     let [columns, rows] = page.layout.grid();
     let areas = root.grid_cells(rows, columns);
-    let size = areas[0].size();
-    let theme = &theme.for_panel_size(size);
-    let width = size.x - 1.2 * theme.caption_size;
-    let facts = FactsLayout::for_page(page, figures, width, theme);
-    let theme = &with_equal_captions(page, width, theme);
-    let texts = |facts: FactsLayout, has_notes: bool| -> Vec<Vec<TextLine>> {
-        let lines = |(panel, figure): (&Panel, &Option<Figure>)| {
-            let pose = figure.as_ref().and_then(Figure::pose_input);
-            panel_lines(panel, (facts, pose, has_notes), width, page.heading.symbols, theme)
-        };
-        page.panels.iter().zip(figures).map(lines).collect()
-    };
-    let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
-    let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
-    /// The part of a panel that is left to its figure, however long its text is.
-    const MIN_FIGURE: f64 = 0.4;
-    let most_text = (1.0 - MIN_FIGURE) * size.y;
-    // Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the
-    // facts are in the table of cells. The key has the formulas of such notes.
-    let fits = |(facts, has_notes): &(FactsLayout, bool)| foot(&texts(*facts, *has_notes)) <= most_text;
-    let choices = [(facts, true), (FactsLayout::None, true)];
-    let (facts, has_notes) = choices.into_iter().find(fits).unwrap_or((FactsLayout::None, false));
-    let texts = texts(facts, has_notes);
-    let foot = foot(&texts).min(most_text);
+    let PanelTexts { theme, foot, .. } = &texts;
+    let foot = *foot;
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
+        /// In panels that are narrower, in ems, the number is above the figure, where it would be on the linkage.
+        const LEAST_BESIDE_NUMBER: f64 = 11.0;
         let gap = 1.2 * theme.caption_size;
-        let size = area.size() - Vector::new(gap, 0.0) - Vector::new(gap, foot);
-        Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
+        let is_narrow = area.size().x < LEAST_BESIDE_NUMBER * theme.note_size;
+        let top = if is_narrow { 1.2 * theme.note_size } else { 0.0 };
+        let size = area.size() - Vector::new(gap, top) - Vector::new(gap, foot);
+        Rect { corner: Point::new(gap, top), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents.clone()).collect();
     let page_scale = page.scale.fixed();
@@ -216,8 +237,9 @@ fn draw_panels<A: Area>(
     // Ticks on an enlarged curve are as long as without such a crank.
     let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
     let themes = [curve_theme, figure_theme];
+    let mut has_places_beyond = false;
     let (mut has_enlarged, mut fitting_scale) = (false, f64::INFINITY);
-    for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
+    for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(&texts.lines) {
         let frame = figure_rect(area);
         let number = panel.solved_cell.cell.number;
         let group = Group {
@@ -229,96 +251,17 @@ fn draw_panels<A: Area>(
                 Some(figure) => {
                     let arrangement = figure.arrangement(arrangement, frame, scale, themes);
                     has_enlarged |= arrangement != Arrangement::Combined;
-                    let fitting = figure.draw(area, frame, (arrangement, scale, period), page, themes);
+                    let (fitting, is_beyond) = figure.draw(area, frame, (arrangement, scale, period), page, themes);
+                    has_places_beyond |= is_beyond;
                     fitting_scale = fitting_scale.min(fitting);
                 }
                 None => draw_not_assembled(area, frame, panel.solved_cell, theme),
             }
             area.record(figure::number_line(panel.solved_cell, theme));
-            draw_lines(area, lines, area.size().y - foot, theme);
+            panel_texts::draw_lines(area, lines, area.size().y - foot, theme);
         });
     }
-    DrawnPanels { scale, fitting_scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
-}
-
-/// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
-fn with_equal_captions(page: &PanelPage, width: f64, theme: &Theme) -> Theme {
-    let natural = |panel: &Panel| {
-        theme.text_line(&panel.caption, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width()
-    };
-    let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
-    let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
-    let part = if part >= TextLine::min_part(theme.caption_size) { part } else { 1.0 };
-    Theme { caption_size: part * theme.caption_size, ..theme.clone() }
-}
-
-/// The distance from a line of text to the next.
-fn leading(line: &TextLine) -> f64 {
-    1.45 * line.text.size
-}
-
-/// The lines under a figure: caption, note, facts, and why the linkage cannot move through the whole range.
-fn panel_lines(
-    panel: &Panel,
-    (facts, pose, has_note): (FactsLayout, Option<String>, bool),
-    width: f64,
-    symbols: &[String],
-    theme: &Theme,
-) -> Vec<TextLine> {
-    let mut lines: Vec<TextLine> = Vec::new();
-    let mut add = |text: &str, size: f64, color: Color, symbols: &[String]| {
-        let line = theme.text_line(text, Point::origin(), Anchor::Middle, size, color);
-        let wrapped = line.fit_or_wrap(width).into_iter().filter(|line| line.text.width() > 0.0);
-        lines.extend(wrapped.map(|line| line.with_italics(symbols)));
-    };
-    add(&panel.caption, theme.caption_size, theme.ink, symbols);
-    if has_note {
-        add(&panel.note, theme.note_size, theme.grey, symbols);
-    }
-    facts.panel_lines(panel, pose).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
-    let motion = &panel.solved_cell.motion;
-    if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
-        add(&error.to_string(), theme.note_size, theme.text_ink(theme.curve_ink(0)), &[]);
-    }
-    lines
-}
-
-/// The number of lines for the facts of a cell, the same for all cells of a page.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum FactsLayout {
-    None,
-    OneLine,
-    TwoLines,
-}
-
-impl FactsLayout {
-    /// One line if the facts of every panel fit `width` at no less than [`TextLine::min_part`] of their size; otherwise two.
-    fn for_page(page: &PanelPage, figures: &[Option<Figure>], width: f64, theme: &Theme) -> FactsLayout {
-        let pose = |figure: &Option<Figure>| figure.as_ref().and_then(Figure::pose_input);
-        let panels = page.panels.iter().zip(figures);
-        let texts = panels.flat_map(|(panel, figure)| FactsLayout::OneLine.panel_lines(panel, pose(figure)));
-        let natural = |text: String| {
-            theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
-        };
-        match texts.map(natural).fold(0.0, f64::max) {
-            0.0 => FactsLayout::None,
-            widest if TextLine::min_part(theme.note_size) * widest <= width => FactsLayout::OneLine,
-            _ => FactsLayout::TwoLines,
-        }
-    }
-
-    /// The lines of facts under a panel, of which the last also says in which pose its linkage is.
-    fn panel_lines(self, panel: &Panel, pose: Option<String>) -> Vec<String> {
-        let [class, straight] = panel.facts.clone();
-        let pose = pose.map(|input| format!("drawn at {input}"));
-        let last: Vec<String> = [straight].into_iter().filter(|part| !part.is_empty()).chain(pose).collect();
-        let parts = [class, last.join(" · ")].into_iter().filter(|part| !part.is_empty());
-        match self {
-            FactsLayout::None => Vec::new(),
-            FactsLayout::OneLine => vec![parts.collect::<Vec<_>>().join(" · ")],
-            FactsLayout::TwoLines => parts.collect(),
-        }
-    }
+    DrawnPanels { scale, fitting_scale, has_enlarged, has_places_beyond }
 }
 
 /// The most columns and rows of panels on a page: at its smallest, a panel has four lines of text under a figure five
@@ -344,31 +287,9 @@ fn beside_key(grid: [usize; 2]) -> Beside {
 pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MOST: usize = 15;
     const ASPECT_RATIO: f64 = 1.0;
-    let contents = Rect { corner: Point::origin(), size: contents_size(paper, theme) };
-    let (contents, _) = key_drawing::divide(contents, beside_key([1, 1]), None, theme);
-    balanced_grid(contents.size, max_in(contents.size, theme), count.min(MOST), ASPECT_RATIO)
-}
-
-/// Draws the lines under a figure from `top`, as many as fit; the last of these says by its end that others do not.
-fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
-    let mut y = top + 1.5 * theme.caption_size;
-    let mut heights = Vec::new();
-    for (k, line) in lines.iter().enumerate() {
-        if k > 0 {
-            y += leading(&lines[k - 1]).max(leading(line));
-        }
-        if y > area.size().y {
-            break;
-        }
-        heights.push(y);
-    }
-    let is_cut = heights.len() < lines.len();
-    let count = heights.len();
-    for (k, (line, y)) in lines.into_iter().zip(heights).enumerate() {
-        let line = line.moved_to(Point::new(area.size().x / 2.0, y));
-        let is_last = is_cut && k + 1 == count;
-        area.record(if is_last { line.fit_width_with_suffix(" …", area.size().x) } else { line });
-    }
+    let contents = contents_size(paper, theme);
+    let contents = key_division::beside(contents, beside_key([1, 1]), theme);
+    balanced_grid(contents, max_in(contents, theme), count.min(MOST), ASPECT_RATIO)
 }
 
 /// Draws a message in place of a figure: the cell is not assembled, and the reason.

@@ -224,6 +224,8 @@ pub struct FindingCell {
     pub place: [usize; 2],
     /// What it is, if the columns do not say it; may be empty.
     pub label: String,
+    /// What varies in it, as in "p = 2", which stays where the label does not fit; may be empty.
+    pub varying: Vec<String>,
     /// The curves of each page of the cell, with the number of the page in the atlas, from 1.
     pub pages: Vec<(Vec<FindingCurve>, usize)>,
     /// What is drawn above them, at their scale.

@@ -1,6 +1,7 @@
 //! Finding charts: the shapes of the curves of a family over its grid.
 
 use super::super::area::{self, Area};
+use super::super::caption_form::CaptionForm;
 use super::super::element::Drawing;
 use super::super::plot::round_number_below;
 use super::super::rect::Rect;
@@ -65,17 +66,30 @@ pub(super) fn compose(
     let title = if chart.title.is_empty() { TITLE.to_owned() } else { format!("{TITLE}: {}", chart.title) };
     let at = heading::draw_title(&root, &title, theme);
     let width = root.size().x - 2.0 * at.x;
+    let em = theme.note_size;
+    let column_count = chart.cells.iter().map(|cell| cell.place[1] + 1).max().unwrap_or(1).max(chart.columns.len());
+    let column = frame(0.0, options, theme).size.x / column_count as f64;
+    let lines_in = |form: CaptionForm, cell: &FindingCell| -> Vec<String> {
+        let label = form.text(&cell.label, &cell.varying);
+        let line = theme.text_line(&label, Point::origin(), Anchor::Middle, em, theme.ink);
+        let width = column - 0.6 * em;
+        let lines = if line.text.width() <= 1.1 * width { vec![label] } else { line.wrap(width) };
+        lines.into_iter().filter(|line| !line.is_empty()).collect()
+    };
+    let fits = |form: &CaptionForm| chart.cells.iter().all(|cell| lines_in(*form, cell).len() <= CAPTION_LINES);
+    let form = CaptionForm::ALL.into_iter().find(fits).unwrap_or(CaptionForm::Values);
+    let varying = chart.cells.first().map_or(&[][..], |cell| &cell.varying);
+    let note: Vec<String> = [chart.note.clone()].into_iter().chain(form.meaning(varying)).collect();
+    let note = note.join(" · ");
     let note_line = |text: &str| theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey);
-    let lines = note_line(&chart.note).wrap_at_separators(width);
+    let lines = note_line(&note).wrap_at_separators(width);
     for (k, line) in lines.iter().enumerate() {
         let below = Vector::new(0.0, heading::SOURCE_LEADING * theme.source_size * k as f64);
         root.record(note_line(line).with_italics(&chart.symbols).fit_width(width).moved_to(at + below));
     }
     let whole = frame(heading::contents_top(&title, lines.len(), options.paper, theme), options, theme);
-    let column_count = chart.cells.iter().map(|cell| cell.place[1] + 1).max().unwrap_or(1).max(chart.columns.len());
     let row_count = chart.cells.iter().map(|cell| cell.place[0] + 1).max().unwrap_or(1).max(chart.rows.len());
-    let step = Vector::new(whole.size.x / column_count as f64, whole.size.y / row_count as f64);
-    let em = theme.note_size;
+    let step = Vector::new(column, whole.size.y / row_count as f64);
     let label = |text: &str, at: Point, width: f64, turns: u8| {
         let line = theme.text_line(text, at, Anchor::Middle, em, theme.ink).with_italics(&chart.symbols);
         let mut line = line.fit_width(width);
@@ -91,10 +105,12 @@ pub(super) fn compose(
     draw_lines(&root, whole, [column_count, row_count], theme);
     let mut links = Vec::new();
     let caption_lines = |cell: &FindingCell| -> Vec<String> {
-        let line = theme.text_line(&cell.label, Point::origin(), Anchor::Middle, em, theme.ink);
-        let width = step.x - 0.6 * em;
-        let lines = if line.text.width() <= 1.1 * width { vec![cell.label.clone()] } else { line.wrap(width) };
-        lines.into_iter().filter(|line| !line.is_empty()).take(CAPTION_LINES).collect()
+        let mut lines = lines_in(form, cell);
+        if lines.len() > CAPTION_LINES {
+            lines.truncate(CAPTION_LINES);
+            lines.iter_mut().skip(CAPTION_LINES - 1).for_each(|last| last.push_str(" …"));
+        }
+        lines
     };
     // So that drawings are in rows, captions have the same height.
     let caption_height =

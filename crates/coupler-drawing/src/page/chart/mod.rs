@@ -12,11 +12,11 @@ mod scale;
 use super::area::{self, Area, PlottersArea};
 use super::figure::Figure;
 use super::heading::margins;
-use super::key_drawing;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{ChartPage, Options, chart_grid, empty_scene};
+use super::{key_division, key_drawing};
 use crate::chart::PointSource;
 use crate::scene::{Group, Scene};
 use coupler_curves::geometry::{Point, Vector};
@@ -54,17 +54,13 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &T
     if let Some((key, figure)) = &key {
         let contents = above(foot(all_features, None).1);
         let grid = chart_grid::beside_key(page.layout.grid());
-        let (beside, rect) = key_drawing::divide(contents, grid, Some(key), theme);
-        charts = beside;
-        match rect {
-            Some(rect) => {
-                let rect = rect.inset(0.5 * theme.margin);
-                key_drawing::draw(&area::whole_page(scene), rect, key, &[figure], theme);
-            }
-            None => {
-                note = Some(key_drawing::left_out_note(contents.size, grid, key, options));
-                charts = above(foot(all_features, note.as_deref()).1);
-            }
+        if key_division::has_room(contents.size, grid, Some(key), theme) {
+            let (beside, rect) = key_division::divide(contents, grid, key, theme);
+            charts = beside;
+            key_drawing::draw(&area::whole_page(scene), rect, key, &[figure], theme);
+        } else {
+            note = Some(key_division::left_out_note(contents.size, grid, key, options));
+            charts = above(foot(all_features, note.as_deref()).1);
         }
     }
     let far = charts.corner + charts.size;
