@@ -642,6 +642,28 @@ fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
 }
 
 #[test]
+fn names_in_labels_without_room_are_said_once_and_titles_are_whole() {
+    let atlas = rendered(
+        "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[page]\npaper = { width = \"148 mm\", height = \"105 mm\" }\n\
+         [[family]]\nid = \"f\"\nlinkage = \"wordy\"\nlayout = \"chart\"\npanels = [2, 1]\nsampling = { samples = 24 }\n\
+         grid = { coupler_of_the_loop = [3, 3.5, 4], distance_of_pivots = [2.2, 2.5] }\nchart = { x = \"input_deg\", y = [\"x\", \"y\"] }\n\
+         [[linkage]]\nid = \"wordy\"\ntrace = [\"M\"]\n\
+         parameters = { coupler_of_the_loop = { default = 3 }, distance_of_pivots = { default = 2 } }\n\
+         [linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [\"distance_of_pivots\", 0] }\nA = { crank = \"O\", length = 1 }\n\
+         B = { dyad = [\"A\", \"C\"], lengths = [\"coupler_of_the_loop\", 3], side = \"left\" }\n\
+         M = { point = [\"A\", \"B\"], along = 1, across = 0.5 }\n",
+    );
+    let texts: Vec<String> = placed_texts(&atlas.read("f/f-001.svg")).into_iter().map(|(text, _)| text).collect();
+    for said in ["3, 2.2", "4, 2.5", "coupler"] {
+        assert!(
+            texts.iter().filter(|text| *text == said || said == "coupler" && text.starts_with(said)).count() >= 2,
+            "{texts:?}"
+        );
+    }
+    assert!(texts.iter().all(|text| !text.contains('…') && !text.ends_with("more")), "{texts:?}");
+}
+
+#[test]
 fn a_chart_shows_its_lines_as_far_as_they_have_values_and_explains_the_inks_of_its_key() {
     let atlas = rendered(
         "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"cognates\"\n\

@@ -41,6 +41,9 @@ pub(super) struct ChartFigure<'a> {
     quantity_index: usize,
     /// The label of each line; `None` for a line that coincides with an earlier one.
     labels: Vec<Option<String>>,
+    /// The names of the values in the labels next to the frame, if these are without them, and these labels.
+    head: String,
+    shown_labels: Vec<Option<String>>,
     /// The scales of x and y; `None` if no value can be drawn.
     scales: Option<[Scale; 2]>,
     /// The widths of the tick labels on the left and of the labels of lines on the right, in millimetres.
@@ -57,8 +60,17 @@ impl<'a> ChartFigure<'a> {
             |k: usize| page.series.iter().flat_map(move |line| line.points(quantity_index).map(move |at| at[k]));
         let axes = [0, 1].map(|k| AxisRange::new(quantities[k], values(k)));
         let labels = shared_labels(page.series, quantity_index, chart.point_source, axes);
-        let texts = labels.iter().flatten().map(String::as_str);
-        let right = line_labels::label_width(texts, page.heading.symbols, theme).min(0.3 * area.x);
+        let label_width = |labels: &[Option<String>]| {
+            line_labels::label_width(labels.iter().flatten().map(String::as_str), page.heading.symbols, theme)
+        };
+        // Where the labels have no room, the names in them are said once.
+        let (whole, most) = (label_width(&labels), 0.3 * area.x);
+        let count = labels.iter().flatten().count();
+        let have_room = whole <= most && line_labels::have_room(count, frame_height(area, theme), theme);
+        let without_names = if have_room { None } else { line_labels::without_names(&labels) };
+        let right = whole.min(most);
+        let right = without_names.as_ref().map_or(right, |(_, values)| label_width(values).clamp(right, 0.45 * area.x));
+        let (head, shown_labels) = without_names.unwrap_or_else(|| (String::new(), labels.clone()));
         let tick_count = |length: f64, spacing: f64, most: usize| ((length / spacing) as usize).clamp(2, most);
         let scale_options = |quantity: &Quantity, ends, ticks| ScaleOptions {
             is_log: quantity.is_log,
@@ -101,7 +113,7 @@ impl<'a> ChartFigure<'a> {
         let ticks = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
         let left = ticks.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
         let left = left + 2.0 * tick_length(theme) + 0.2 * theme.note_size;
-        ChartFigure { page, quantity_index, labels, scales, left_margin: left, right_margin: right }
+        ChartFigure { page, quantity_index, labels, head, shown_labels, scales, left_margin: left, right_margin: right }
     }
 
     /// The width of the tick labels on the left, in millimetres.
@@ -166,9 +178,15 @@ impl<'a> ChartFigure<'a> {
         let name = self.page.chart.x.label();
         let title =
             theme.text_line(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption_size, theme.ink);
-        let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
-        let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
-        area.record(title);
+        // A title may be wider than the frame, as far as the chart is.
+        let middle = left + inner.x / 2.0;
+        let lines = title.fit_or_wrap((2.0 * middle.min(all.x - middle)).max(0.9 * inner.x));
+        let note_width = (inner.x - lines.first().map_or(0.0, |line| line.text.width())) / 2.0 - theme.caption_size;
+        for (k, line) in lines.into_iter().enumerate() {
+            let below = Vector::new(0.0, 1.3 * theme.caption_size * k as f64);
+            let at = line.text.position + below;
+            area.record(line.with_italics(self.page.heading.symbols).moved_to(at));
+        }
         let lines = self.clipped_lines(frame);
         let drawn = lines.iter().zip(&self.labels).filter(|(_, label)| label.is_some());
         let left_out: usize = drawn.map(|([_, points], _)| points.nonpositive_count).sum();
@@ -224,12 +242,14 @@ impl<'a> ChartFigure<'a> {
             let marked = if with_marks { &points.points } else { &line.isolated_points };
             items.extend(marked.iter().map(|at| style.mark_item(*at, theme)));
             frame.record(Item::Group(self.series_group(k, label, items)));
-            if let Some(end) = line.end_point().filter(|_| !label.is_empty()) {
-                labels.push(LineLabel { text: label, style, end_height: end.y });
+            if let (Some(end), Some(text)) = (line.end_point(), &self.shown_labels[k])
+                && !text.is_empty()
+            {
+                labels.push(LineLabel { text: text.as_str(), style, end_height: end.y });
             }
         }
         let items = line_labels::label_items(
-            labels,
+            (&self.head, labels),
             span.x,
             span.y,
             self.right_margin,
@@ -284,6 +304,11 @@ fn tick_length(theme: &Theme) -> f64 {
 
 fn to_rgb(Color(r, g, b): Color) -> RGBColor {
     RGBColor(r, g, b)
+}
+
+/// The height of the frame of a chart in an area of a size.
+fn frame_height(area: Vector, theme: &Theme) -> f64 {
+    area.y - 5.6 * theme.caption_size - 2.0 * tick_length(theme) - 1.5 * theme.note_size
 }
 
 /// The width and height of the frame between its first and its last pixel, both of which plotters counts as inside.

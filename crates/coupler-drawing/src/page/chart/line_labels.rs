@@ -34,12 +34,42 @@ pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[
     if widest > 0.0 { 0.8 * theme.note_size + sample_length(theme) + 0.5 * theme.note_size + widest } else { 0.0 }
 }
 
-/// The items of the labels: each as close as possible to the height of the end of its line, without overlaps.
+/// Labels without the names of their values, which are the same in all, and these names; `None` if they are not.
+pub(super) fn without_names(labels: &[Option<String>]) -> Option<(String, Vec<Option<String>>)> {
+    let equations = |label: &String| -> Vec<(String, String)> {
+        let equation = |part: &str| match [" = ", " ≈ "].iter().find_map(|sign| part.split_once(sign)) {
+            Some((name, value)) => (name.to_owned(), value.to_owned()),
+            None => (String::new(), part.to_owned()),
+        };
+        label.split(", ").map(equation).collect()
+    };
+    let names = |label: &String| equations(label).into_iter().map(|(name, _)| name).collect::<Vec<String>>();
+    let mut all = labels.iter().flatten().map(names);
+    let first = all.next()?;
+    let is_named = first.iter().any(|name| !name.is_empty());
+    // Of lines that coincide, labels are joined.
+    let is_joined = labels.iter().flatten().any(|label| label.contains([';', '…']));
+    if !is_named || is_joined || all.any(|names| names != first) {
+        return None;
+    }
+    let values = |label: &String| {
+        equations(label).into_iter().map(|(_, value)| value.replace(" / ", "/")).collect::<Vec<_>>().join(", ")
+    };
+    let names: Vec<String> = first.into_iter().filter(|name| !name.is_empty()).collect();
+    Some((names.join(", "), labels.iter().map(|label| label.as_ref().map(values)).collect()))
+}
+
+/// Whether so many labels fit a height at their smallest size, a line each.
+pub(super) fn have_room(count: usize, height: f64, theme: &Theme) -> bool {
+    count as f64 * SPACING * MIN_TEXT_SIZE.min(theme.note_size) <= height
+}
+
+/// The items of the labels: each as close as possible to the height of the end of its line, without overlaps, under `head`, which may be empty.
 ///
 /// Labels that are too long are broken. If not all fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the
 /// others. `left` is the right edge of the frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
-    labels: Vec<LineLabel>,
+    (head, labels): (&str, Vec<LineLabel>),
     left: f64,
     height: f64,
     width: f64,
@@ -61,6 +91,17 @@ pub(super) fn label_items(
         Some(most @ 2..) => most as f64 + 0.4,
         _ => 1.0,
     };
+    let head_lines: Vec<String> = match head {
+        "" => Vec::new(),
+        head => label_text(head, Point::origin(), symbols, theme).wrap(left + width - from(theme)),
+    };
+    let top = if head.is_empty() { 0.0 } else { (head_lines.len() as f64 + 0.4) * SPACING * theme.note_size };
+    let mut items = Vec::new();
+    for (k, line) in head_lines.iter().enumerate() {
+        let at = Point::new(from(theme), (0.8 + SPACING * k as f64) * theme.note_size);
+        items.push(Item::Text(label_text(line, at, symbols, theme).fit_width(left + width - at.x).text));
+    }
+    let height = height - top;
     let least = MIN_TEXT_SIZE.min(theme.note_size);
     let with_size = |part: f64| Theme { note_size: (part * theme.note_size).max(least), ..theme.clone() };
     let count = labels.len();
@@ -78,15 +119,14 @@ pub(super) fn label_items(
         labels
     };
     drawn.sort_by(|a, b| a.end_height.total_cmp(&b.end_height));
-    let mut items = Vec::new();
     let omitted = count - drawn.len();
     let foot = if omitted > 0 { height - leading } else { height };
-    let ends: Vec<f64> = drawn.iter().map(|label| label.end_height - half).collect();
+    let ends: Vec<f64> = drawn.iter().map(|label| label.end_height - top - half).collect();
     let heights = spread_heights(&ends, spacing, foot - 2.0 * half).into_iter().map(|height| height + half);
     let (from, text) = (from(theme), text_start(theme));
     // From the middle of a letter down to its baseline.
     let drop = 0.35 * theme.note_size;
-    for (label, y) in drawn.iter().zip(heights) {
+    for (label, y) in drawn.iter().zip(heights.map(|height| height + top)) {
         items.extend(
             label.style.line_items(&[vec![Point::new(from, y), Point::new(from + sample_length(theme), y)]], theme),
         );
@@ -101,9 +141,11 @@ pub(super) fn label_items(
         }
     }
     if omitted > 0 {
-        let more = format!("and {omitted} more");
-        let line = theme.text_line(&more, Point::new(text, height + drop), Anchor::Start, theme.note_size, theme.grey);
-        items.push(Item::Text(line.fit_width(left + width - text).text));
+        let at = Point::new(text, top + height + drop);
+        let more = |words: &str| theme.text_line(words, at, Anchor::Start, theme.note_size, theme.grey);
+        let whole = more(&format!("and {omitted} more"));
+        let space = left + width - text;
+        items.push(Item::Text(if whole.text.width() <= space { whole } else { more(&format!("+ {omitted}")) }.text));
     }
     items
 }
@@ -145,6 +187,18 @@ fn spread_heights(preferred: &[f64], spacing: f64, max_height: f64) -> Vec<f64> 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_all_labels_have_are_said_once() {
+        let labels =
+            |texts: &[&str]| -> Vec<Option<String>> { texts.iter().map(|text| Some((*text).to_owned())).collect() };
+        let (names, values) =
+            without_names(&labels(&["p = 2, k = 1 / 3, circuit 1", "p = 3, k ≈ 1.41, circuit 2"])).unwrap();
+        assert_eq!((names.as_str(), values), ("p, k", labels(&["2, 1/3, circuit 1", "3, 1.41, circuit 2"])));
+        for other in [&["p = 2", "k = 2"][..], &["p = 2; p = 3", "p = 4"], &["circuit 1", "circuit 2"], &[]] {
+            assert_eq!(without_names(&labels(other)), None, "{other:?}");
+        }
+    }
 
     #[test]
     fn labels_are_close_to_their_lines_and_do_not_overlap() {
