@@ -442,6 +442,23 @@ fn what_varies_stays_in_the_captions_of_small_panels_and_numbers_are_above_linka
 }
 
 #[test]
+fn numbers_of_inputs_are_apart() {
+    let svg = page_on_paper(
+        [105, 148],
+        "linkage = \"evans\"\npanels = [3, 2]\nlet = { a = \"(1 + p)^1.5 / 2\" }\ngrid = { p = [2, 2.5, 3], k = [1.5, 2] }",
+    );
+    let numbers: Vec<[f64; 3]> = (svg.split("<text ").skip(1))
+        .filter(|text| ["90", "180", "270"].iter().any(|input| text.contains(&format!(">{input}</text>"))))
+        .map(|text| ["x", "y", "font-size"].map(|name| attributes(&format!(" {text}"), name)[0]))
+        .collect();
+    // A figure is 0.636 of the size wide; the shorter number has two.
+    let is_apart =
+        |[a, b]: [&[f64; 3]; 2]| (a[1] - b[1]).abs() > a[2] || (a[0] - b[0]).abs() > (2.5 * 0.636 + 0.25) * a[2];
+    assert!(numbers.len() > 5);
+    assert!((0..numbers.len()).all(|k| numbers[..k].iter().all(|other| is_apart([other, &numbers[k]]))), "{numbers:?}");
+}
+
+#[test]
 fn joints_have_one_size_on_a_page_and_texts_keep_to_its_margins() {
     // The first crank is too short to be seen between the smallest joints.
     let svg = page_on_paper(

@@ -326,10 +326,10 @@ impl<'a> Figure<'a> {
             area.record(Drawing { class: "motion", title: String::new(), items });
         }
         let frame = plot.rect_above_scale_bar(theme);
-        let mut placer = LabelPlacer::new(&obstacles, frame, theme);
+        // Numbers next to each other would read as one.
+        let gap = (0.6 * theme.joint_radius).max(0.3 * theme.small_size());
+        let mut placer = LabelPlacer::new(&obstacles, frame, theme).with_placed(Vec::new(), gap);
         if let Some(body) = body.filter(|body| !body.is_empty()) {
-            // Numbers of poses and inputs next to each other would read as one.
-            placer = placer.with_placed(Vec::new(), 0.6 * theme.joint_radius);
             body.draw_labels(area, &mut placer, theme);
         }
         let least = MIN_NUMBERED_FRAME.map(|ems| ems * theme.small_size());
