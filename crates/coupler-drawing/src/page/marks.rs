@@ -116,7 +116,7 @@ fn input_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
 /// A value of the input with its unit: an angle with up to two decimals.
 pub(super) fn format_input(linkage: &Linkage, input: f64) -> String {
     match linkage.input() {
-        Input::Length => format_with_digits(input, 4),
+        Input::Length => format_with_digits(input, LENGTH_DIGITS),
         Input::Angle { .. } => format!("{}°", format_exactly((input * 100.0).round() / 100.0)),
     }
 }
@@ -125,18 +125,18 @@ pub(super) fn format_input(linkage: &Linkage, input: f64) -> String {
 fn format_limit(linkage: &Linkage, limit: f64, inward: f64) -> String {
     /// Limits are known to about this part of the last place that is printed, and one that is round is printed as it is.
     const ACCURACY: f64 = 1e-6;
-    let text = format_input(linkage, limit);
-    let digits = text.trim_end_matches('°').replace('−', "-");
-    let Ok(printed) = digits.parse::<f64>() else { return text };
-    let place = match linkage.input() {
-        Input::Length => digits
-            .split_once('.')
-            .map_or(1.0, |(_, decimals)| 1.0 / decimals.bytes().fold(1.0, |power, _| power * 10.0)),
-        Input::Angle { .. } => 0.01,
+    let decimals = match linkage.input() {
+        Input::Length => decimals(exponent(limit), LENGTH_DIGITS),
+        Input::Angle { .. } => 2,
     };
-    let is_outside = (limit - printed) * inward > ACCURACY * place;
-    if is_outside { format_input(linkage, printed + inward * place) } else { text }
+    let places = (0..decimals).fold(1.0, |places, _| places * 10.0);
+    let printed = (limit * places).round() / places;
+    let is_outside = (limit - printed) * inward > ACCURACY / places;
+    format_input(linkage, if is_outside { printed + inward / places } else { limit })
 }
+
+/// The digits of an input that is a length.
+const LENGTH_DIGITS: i32 = 4;
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.
 pub(super) fn path_name(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
@@ -240,15 +240,23 @@ pub(super) fn format_with_digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
-    let exponent = format!("{value:e}").rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
+    let exponent = exponent(value);
     if (-5..7).contains(&exponent) {
-        let decimals = usize::try_from(count - 1 - exponent).unwrap_or(0);
-        return format!("{value:.decimals$}");
+        return format!("{value:.0$}", decimals(exponent, count));
     }
-    let decimals = usize::try_from(count - 1).unwrap_or(0);
-    let scientific = format!("{value:.decimals$e}");
+    let scientific = format!("{value:.0$e}", decimals(0, count));
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     format!("{digits} × 10{}", superscript(exponent))
+}
+
+/// The power of ten of the first digit of a number.
+fn exponent(value: f64) -> i32 {
+    format!("{value:e}").rsplit('e').next().and_then(|exponent| exponent.parse().ok()).unwrap_or(0)
+}
+
+/// The decimals of a number with `count` significant digits.
+fn decimals(exponent: i32, count: i32) -> usize {
+    usize::try_from(count - 1 - exponent).unwrap_or(0)
 }
 
 /// The straight portion of a curve as a broad light band under the dashes, and its mirror image on a symmetrical curve.

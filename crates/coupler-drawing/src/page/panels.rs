@@ -49,9 +49,13 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         }
         None => (contents(symbols), None),
     };
+    let area = |panels: Rect| {
+        let far = panels.corner + panels.size;
+        root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x])
+    };
     let panel_texts = |panels: Rect| {
         let [columns, rows] = page.layout.grid();
-        PanelTexts::new(page, &figures, panels.size.component_div(&Vector::new(columns as f64, rows as f64)), theme)
+        PanelTexts::new(page, &figures, area(panels).grid_cells(rows, columns)[0].size(), theme)
     };
     let (mut panels, mut key) = divided(&symbols);
     let mut texts = panel_texts(panels);
@@ -61,9 +65,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         texts = panel_texts(panels);
     }
     let (has_facts, has_notes) = (texts.has_facts, texts.has_notes);
-    let far = panels.corner + panels.size;
-    let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
-    let drawn = draw_panels(&area, page, &figures, period, texts);
+    let drawn = draw_panels(&area(panels), page, &figures, period, texts);
     let mut has_formulas = false;
     if let (Some(key), Some(rect)) = (page.key, key) {
         let figures: Vec<&Figure> = figures.iter().flatten().collect();
