@@ -40,10 +40,10 @@ impl ComposedPage {
             scene = Some(page);
             Ok(())
         });
-        if let Err(Error::Misfits(_)) = &result {
-            if let Some(problem) = scale::scale_problem(plan, planned, (&[Format::Svg], Division::WHOLE), stop)? {
-                return Err(Error::Misfits(vec![problem]));
-            }
+        if let Err(Error::Misfits(_)) = &result
+            && let Some(problem) = scale::scale_problem(plan, planned, (&[Format::Svg], Division::WHOLE), stop)?
+        {
+            return Err(Error::Misfits(vec![problem]));
         }
         result?;
         // Without an error every page is passed on, unless the run has been interrupted.

@@ -75,13 +75,13 @@ fn has_same_points(a: &[Option<Point>], b: &[Option<Point>], distance: f64) -> b
 fn runs_along(line: &[Option<Point>], other: &[Option<Point>]) -> bool {
     let segment = |k: usize| Some([(*other.get(k)?)?, (*other.get(k + 1)?)?]);
     let mut at = 0;
-    let mut is_on_other = |p: &Point| {
+    let is_on_other = |p: &Point| {
         let found =
             (at..other.len()).find(|k| segment(*k).is_some_and(|[a, b]| distance_to_segment(*p, a, b) <= VISIBLE));
         at = found.unwrap_or(at);
         found.is_some()
     };
-    line.iter().flatten().all(|p| is_on_other(p))
+    line.iter().flatten().all(is_on_other)
 }
 
 /// The parts that some labels have in common, if no other label has all of them: the other parts distinguish no lines.
