@@ -155,6 +155,26 @@ fn one_mistake_does_not_hide_another() {
     for message in ["no key `foo`", "`p` is -1", "`r` is -2"] {
         assert!(report.contains(message), "{message}:\n{report}");
     }
+    // Nor does a value that cannot be read hide what is wrong with the others, with names and with expressions; and what follows from
+    // it is no problem of its own.
+    let unread =
+        GOOD.replace("p = [2, 3]", "p = [\"2 mm\"], r = -2, foo = 3") + "where = \"mu_worst > 40\"\nsort = \"nix\"\n";
+    let report = problems(&unread);
+    for message in ["`mm` is not a unit here", "`r` is -2", "`foo` is not a parameter", "name `mu_worst`", "name `nix`"]
+    {
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+    assert_eq!(report.matches("error: ").count(), 6, "{report}");
+    let unread = GOOD.replace("grid = { p = [2, 3] }", "cases = [{ p = \"x\", k = -1 }]");
+    assert!(problems(&unread).contains("unknown name `x`"));
+    let missing = problems(&GOOD.replace("p = [2, 3]", "r = -2"));
+    assert!(missing.contains("`p` has no value") && missing.contains("`r` is -2"), "{missing}");
+    let list = "[book]\n[[book.list]]\ntitle = \"L\"\nsort = \"nonsense\"\ncaption = \"{foo}\"\ncolumns = [\"x\", \"y\"]\n[[family]]";
+    let report = problems(&GOOD.replacen("[[family]]", list, 1));
+    for message in ["name `nonsense`", "name `foo`", "which has no captions"] {
+        assert!(report.contains(message), "{message}:\n{report}");
+    }
+    assert_eq!(report.matches("this column has no head").count(), 2, "{report}");
     let helper = GOOD.replace("grid = { p = [2, 3] }", "cases = [{ p = 2, t = 2 }, { p = 3 }]").replace("(1 + p)", "t");
     assert!(problems(&helper).contains("in cell 2 (p = 3, r = 1, k = 2), `t` has no value"));
 }

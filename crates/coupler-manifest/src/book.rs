@@ -578,31 +578,30 @@ fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParse
     Some(PlannedChapter { title: title?, conditions, is_given: true })
 }
 
-/// The columns of a list that is a table, and their heads; none of another.
-fn columns<'v, 't>(fields: &Fields<'v, 't>, parser: &mut TomlParser<'t>) -> Option<(&'v [TomlValue<'t>], Vec<String>)> {
-    let Some(value) = fields.get("columns") else { return Some((&[], Vec::new())) };
-    let columns = parser.list(value)?;
+/// The columns of a list that is a table, as far as they can be read, and their heads, if all is right; none of another.
+fn columns<'v, 't>(fields: &Fields<'v, 't>, parser: &mut TomlParser<'t>) -> (&'v [TomlValue<'t>], Option<Vec<String>>) {
+    let Some(value) = fields.get("columns") else { return (&[], Some(Vec::new())) };
+    let Some(columns) = parser.list(value) else { return (&[], None) };
     if !(1..=MAX_COLUMNS).contains(&columns.len()) {
         let message = format!("there are {} columns: expected 1 to {MAX_COLUMNS}", columns.len());
         parser.report(Problem::error(value.span(), message));
-        return None;
+        return (&[], None);
     }
-    let mut heads = Vec::new();
-    for column in columns {
-        let text = short_text(column, MAX_TITLE, parser)?;
-        let Some(head) = column_head(&text) else {
+    let head = |column: &TomlValue<'t>| {
+        let head = column_head(&short_text(column, MAX_TITLE, parser)?);
+        if head.is_none() {
             let problem = Problem::error(column.span(), "this column has no head");
             parser.report(problem.with_help("write it before the value and a colon, as in \"length: {length:.2}\""));
-            return None;
-        };
-        heads.push(head);
-    }
+        }
+        head
+    };
+    let heads: Vec<Option<String>> = columns.iter().map(head).collect();
     if let Some(caption) = fields.get("caption") {
         let problem = Problem::error(caption.span(), "a list with `columns` is a table, which has no captions");
         parser.report(problem.with_help("leave out one of them"));
-        return None;
+        return (columns, None);
     }
-    Some((columns, heads))
+    (columns, heads.into_iter().collect())
 }
 
 /// The head of a column: the text before the first colon and space, without values.
@@ -620,7 +619,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let (count, per_geometry) = (number("count", DEFAULT_COUNT), number("per_geometry", DEFAULT_PER_GEOMETRY));
     let sort = fields.required("sort", "sort = \"-straight_length\"", parser);
     let (filter, caption) = (fields.get("where"), fields.get("caption"));
-    let (columns, heads) = columns(&fields, parser)?;
+    let (columns, heads) = columns(&fields, parser);
     let mut names = [filter, sort].map(names_in).concat();
     let parsed = |value: &TomlValue| Caption::parse(value.get_ref().as_str()?).ok();
     let captions: Vec<Caption> = caption.into_iter().chain(columns).filter_map(parsed).collect();
@@ -629,13 +628,13 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let words: Vec<&str> = Family::word_measure_names().collect();
     let knows =
         |scope: &Scope| names.iter().all(|name| words.contains(&name.as_str()) || scope.index_of(name).is_some());
-    let sort = sort.filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser))?;
+    let sort = sort.filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser));
     let criteria = for_families(families, parser, knows, |planned, scope, parser| {
         let filter = match filter {
             None => Some(None),
             Some(value) => read_filter(value, scope, parser).map(Some),
         };
-        let sort = parser.numeric_expression(sort, scope);
+        let sort = sort.and_then(|value| parser.numeric_expression(value, scope));
         let caption = match caption {
             None => Caption::parse("").ok(),
             Some(value) => parser.caption(value, scope, &words),
@@ -648,7 +647,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
     warn_if_none_applies(&criteria, "list", value, families, parser);
     let parsed = |value: &TomlValue| value.get_ref().as_str().and_then(|text| Expression::parse(text).ok());
-    let emphasis = emphasis_of(parsed(sort).as_ref(), filter.and_then(parsed).as_ref());
-    let (title, note, count, per_geometry) = (title?, note?, count?, per_geometry?);
-    Some(PlannedList { title, note, count, per_geometry, emphasis, columns: heads, criteria, is_given: true })
+    let emphasis = emphasis_of(sort.and_then(parsed).as_ref(), filter.and_then(parsed).as_ref());
+    let (title, note, count, per_geometry, columns) = (title?, note?, count?, per_geometry?, heads?);
+    Some(PlannedList { title, note, count, per_geometry, emphasis, columns, criteria, is_given: true })
 }

@@ -146,6 +146,8 @@ pub(crate) struct GivenNames<'a> {
     pub spans: &'a [Option<Span>],
     /// The parameters of which misspelt names have been reported.
     pub misspelt: &'a [String],
+    /// The names of which a value or an expression could not be read, which has been reported.
+    pub unread: &'a [String],
     /// The table that the cases are from, if they are.
     pub table: Option<&'a TableColumns>,
 }
@@ -157,18 +159,26 @@ pub(crate) fn check(
     family: &Family,
     cells: Range<usize>,
     fields: &Fields,
-    GivenNames { spans, misspelt, table }: GivenNames,
+    GivenNames { spans, misspelt, unread, table }: GivenNames,
     has_problems: bool,
     parser: &mut TomlParser,
 ) {
     let is_parameter = |name: &String| family.template.parameters.iter().any(|parameter| parameter.name == *name);
-    let is_reported = |name: &String| has_problems && (!is_parameter(name) || misspelt.contains(name));
+    let is_unread = |name: &String| unread.contains(name);
+    let is_missing_reported =
+        |name: &String| has_problems && (!is_parameter(name) || misspelt.contains(name) || is_unread(name));
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
     for k in cells {
         let cell = family.cell(k);
         for error in family.cell_errors(&cell) {
-            if matches!(&error, CellError::Missing(name) if is_reported(name)) {
+            let is_reported = match &error {
+                CellError::Missing(name) => is_missing_reported(name),
+                // What could not be read, or is derived from it, is not a number.
+                CellError::Value { slot, .. } => !unread.is_empty() && !cell.values[*slot].is_finite(),
+                CellError::Template(_) => false,
+            };
+            if is_reported {
                 continue;
             }
             let (kind, slot, help) = match &error {

@@ -138,9 +138,15 @@ pub(crate) fn read<'t>(
         Purpose::Tables(range) => range(&family),
     };
     if !parser.has_syntax_error() {
-        let given = cells::GivenNames { spans: &names.spans, misspelt: &names.misspelt, table: names.table.as_ref() };
+        let given = cells::GivenNames {
+            spans: &names.spans,
+            misspelt: &names.misspelt,
+            unread: &names.unread,
+            table: names.table.as_ref(),
+        };
         cells::check(&family, checked, &fields, given, parser.problem_count() > before, parser);
     }
+    names.is_complete.then_some(())?;
     let source = source.unwrap_or_else(|| family.template.source_line());
     let [filter_span, scale_span] = ["where", "scale"].map(|key| fields.get(key).map(TomlValue::span));
     let sort = fields.get("sort").and_then(|value| value.get_ref().as_str()).map(str::to_owned);

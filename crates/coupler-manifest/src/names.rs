@@ -25,11 +25,16 @@ pub(crate) struct FamilyNames {
     pub spans: Vec<Option<Span>>,
     /// The parameters of which misspelt names have been reported, and so not that they have no value.
     pub misspelt: Vec<String>,
+    /// The names of which a value or an expression could not be read, and so not that they have none.
+    pub unread: Vec<String>,
     /// The table that the cases are from, if they are.
     pub table: Option<TableColumns>,
+    /// Whether all values and expressions could be read; otherwise there are problems.
+    pub is_complete: bool,
 }
 
-/// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`.
+/// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`. `None` if it is not known
+/// which names there are.
 pub(crate) fn read_names<'t>(
     template: &Template,
     fields: &Fields<'_, 't>,
@@ -49,6 +54,7 @@ pub(crate) fn read_names<'t>(
         check_expression_syntax(fields, parser);
         return None;
     };
+    let mut unread = named_space.unread();
     let (space, table) = named_space.into_space(&mut |name, span| collected.add(name, Some(span)));
     let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| collected.add(name, Some(span))).collect();
     let NameTable { all, spans, .. } = collected;
@@ -65,7 +71,7 @@ pub(crate) fn read_names<'t>(
     let scope = Scope::from_numbers(all.iter().map(String::as_str));
     let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
-    let mut read_all = table.as_ref().is_none_or(|table| table.is_complete);
+    let mut read_all = table.as_ref().is_none_or(|table| table.is_complete) && unread.is_empty();
     for ((name, span, value), &slot) in lets.iter().zip(&let_slots) {
         linkage_format::check_identifier(name, span.clone(), parser);
         if assignments[slot] > 0 {
@@ -81,7 +87,10 @@ pub(crate) fn read_names<'t>(
             let compiled = expression.compile(&scope, Kind::Number);
             parser.ok_or_report(value, compiled).is_some()
         });
-        read_all &= expression.is_some();
+        if expression.is_none() {
+            unread.push((*name).to_owned());
+            read_all = false;
+        }
         sources.extend(expression.map(|expression| (slot, expression, span.clone())));
     }
     let always_given = |slot: usize| assignments[slot] == space.count();
@@ -113,8 +122,8 @@ pub(crate) fn read_names<'t>(
         misspelt = unused_names::report(template, (names, table.as_ref()), is_known, fields, parser);
     }
     let derived = in_dependency_order(sources, &all, &scope, parser)?;
-    read_all.then_some(())?;
-    Some(FamilyNames { all, space, derived, filter, sort, captions, spans, misspelt, table })
+    let is_complete = read_all;
+    Some(FamilyNames { all, space, derived, filter, sort, captions, spans, misspelt, unread, table, is_complete })
 }
 
 /// The names of a family while they are collected.

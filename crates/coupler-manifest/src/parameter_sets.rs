@@ -13,6 +13,10 @@ use coupler_curves::template::{ParameterKind, Template};
 /// The most cells that `limit` may allow; their numbers have 32 bits.
 pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
 
+/// In place of a value that could not be read, which is a problem already, so that what else is wrong is found in the same run: no value
+/// that can be read is NaN.
+const UNREAD: f64 = f64::NAN;
+
 /// The values of `grid`, `cases` or `design`, by name.
 pub(crate) enum NamedSpace {
     Grid(Vec<(String, Span, AxisValues)>),
@@ -22,6 +26,22 @@ pub(crate) enum NamedSpace {
 }
 
 impl NamedSpace {
+    /// The names of which some value could not be read.
+    pub fn unread(&self) -> Vec<String> {
+        let names: Vec<&String> = match self {
+            NamedSpace::Grid(axes) => {
+                let is_unread =
+                    |values: &AxisValues| matches!(values, AxisValues::List(list) if list.iter().any(|v| v.is_nan()));
+                axes.iter().filter(|(.., values)| is_unread(values)).map(|(name, ..)| name).collect()
+            }
+            NamedSpace::Cases(cases) => {
+                cases.iter().flatten().filter(|(.., value)| value.is_nan()).map(|(name, ..)| name).collect()
+            }
+            NamedSpace::Table(..) => Vec::new(),
+        };
+        names.into_iter().cloned().collect()
+    }
+
     /// The parameter sets, with the indices of their names, and the table that they are from.
     pub fn into_space(self, slot_of: &mut impl FnMut(&str, &Span) -> usize) -> (ParameterSpace, Option<TableColumns>) {
         let space = match self {
@@ -113,13 +133,10 @@ fn read_grid<'t>(
         return None;
     }
     let mut axes = Vec::new();
-    let mut all_read = true;
     for (name, span, value) in table.entries() {
         linkage_format::check_identifier(name, span.clone(), parser);
-        match grid::read_values(name, kind_of(template, name), value, parser) {
-            Some(values) => axes.push((name.to_owned(), span, values)),
-            None => all_read = false,
-        }
+        let values = grid::read_values(name, kind_of(template, name), value, parser);
+        axes.push((name.to_owned(), span, values.unwrap_or_else(|| vec![UNREAD].into())));
     }
     let cells: f64 = axes.iter().map(|(.., read): &(_, _, GridValues)| read.count).product();
     if cells > limit as f64 {
@@ -128,7 +145,7 @@ fn read_grid<'t>(
         parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
         return None;
     }
-    all_read.then(|| NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
+    Some(NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
 }
 
 /// Reads `cases`, at most `limit` of them.
@@ -165,8 +182,7 @@ fn read_cases<'t>(
         for (name, span, value) in table.entries() {
             linkage_format::check_identifier(name, span.clone(), parser);
             let value = parser.parameter_value(value, name, kind_of(template, name));
-            all_read &= value.is_some();
-            case.extend(value.map(|value| (name.to_owned(), span, value)));
+            case.push((name.to_owned(), span, value.unwrap_or(UNREAD)));
         }
         cases.push(case);
     }

@@ -64,7 +64,7 @@ const LENGTH_UNITS: [(&str, &str); 8] = [
 pub(crate) fn length_unit_help(word: &str) -> Option<String> {
     let (_, unit) = LENGTH_UNITS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word))?;
     Some(format!(
-        "lengths are numbers in the unit of the atlas: leave it out here, and write unit = \"{unit}\" in [atlas]"
+        "lengths are numbers in the unit of the atlas: leave it out here, and write unit = \"{unit}\" in [atlas] if it is that"
     ))
 }
 

@@ -199,9 +199,14 @@ impl Family {
         if errors.is_empty() {
             return self.linkage(cell).err().map(CellError::Template).into_iter().collect();
         }
-        // A name without a value is not a number.
+        // A name without a value is not a number, nor is what is derived from it.
         let missing = self.names_without_value(cell);
-        if missing.is_empty() { errors } else { missing.into_iter().map(CellError::Missing).collect() }
+        let is_known = |error: &CellError| match error {
+            CellError::Value { slot, .. } => missing.is_empty() || cell.values[*slot].is_finite(),
+            CellError::Missing(_) | CellError::Template(_) => true,
+        };
+        let known: Vec<CellError> = errors.into_iter().filter(is_known).collect();
+        missing.into_iter().map(CellError::Missing).chain(known).collect()
     }
 
     /// The names that neither the parameter set of a cell nor an expression gives a value to.
