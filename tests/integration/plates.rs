@@ -411,6 +411,17 @@ fn a_key_with_many_lines_takes_more_of_a_page_with_one_panel() {
 }
 
 #[test]
+fn a_key_beside_panels_has_a_smaller_drawing_before_its_lines_are_left_out() {
+    let svg = page_on_paper(
+        [120, 100],
+        "linkage = \"evans\"\npanels = [3, 1]\nsampling = { samples = 24 }\ncases = [{ p = 2, a = 2.6 }, { p = 3, a = 1.5 }, { p = 9, a = 2.6 }]",
+    );
+    let lines = texts(&svg);
+    assert!(lines.iter().any(|line| line.starts_with("shown here at")), "{lines:?}");
+    assert!(lines.iter().all(|line| !line.contains("more lines")), "{lines:?}");
+}
+
+#[test]
 fn what_varies_stays_in_the_captions_of_small_panels_and_numbers_are_above_linkages() {
     let svg = page_on_paper(
         [210, 297],

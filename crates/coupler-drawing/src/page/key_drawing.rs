@@ -55,7 +55,7 @@ fn least_distance(mechanism: &PosedMechanism, circuit: &Circuit) -> f64 {
 
 /// Draws a key in a rectangle, with the linkage of the clearest of some figures.
 pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure], theme: &Theme) {
-    let (drawing, text) = drawing_and_text(rect, theme);
+    let (drawing, text) = drawing_and_text(rect, key, theme);
     let mut key = key.clone().with_common_pins(&common_pins(figures));
     key.is_numbered = needs_numbers(&key, drawing.x, theme);
     if let Some((figure, mechanism)) =
@@ -91,11 +91,20 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
 }
 
 /// The size of the drawing at the upper left of a key, and the rectangle of its lines.
-fn drawing_and_text(rect: Rect, theme: &Theme) -> (Vector, Rect) {
+fn drawing_and_text(rect: Rect, key: &Key, theme: &Theme) -> (Vector, Rect) {
+    /// The least part of its usual height that a drawing over many lines has.
+    const LEAST: f64 = 0.6;
     let em = theme.note_size;
     let is_column = rect.size.x < 1.4 * rect.size.y;
     let drawing = match is_column {
-        true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
+        true => {
+            let smallest = MIN_TEXT_SIZE.min(em);
+            let lines = KeyLines::new(rect, &[], key, smallest, theme);
+            let rows = (lines.rows.len() + MORE_REMARKS).div_ceil(lines.columns);
+            let left = rect.size.y - em - LEADING * smallest * rows as f64;
+            let usual = (0.9 * rect.size.x).min(0.42 * rect.size.y);
+            Vector::new(rect.size.x, usual.min(left.max(LEAST * usual)))
+        }
         false => Vector::new((1.2 * rect.size.y).min(STRIP_DRAWING_PART * rect.size.x), rect.size.y),
     };
     let before = match is_column {
@@ -107,7 +116,7 @@ fn drawing_and_text(rect: Rect, theme: &Theme) -> (Vector, Rect) {
 
 /// Whether all lines of a key fit a rectangle at their smallest size, with some remarks on its drawing.
 pub(super) fn has_all_lines(rect: Rect, key: &Key, theme: &Theme) -> bool {
-    let (_, text) = drawing_and_text(rect, theme);
+    let (_, text) = drawing_and_text(rect, key, theme);
     let lines = KeyLines::new(text, &[], key, MIN_TEXT_SIZE.min(theme.note_size), theme);
     lines.rows.len() + MORE_REMARKS <= lines.capacity()
 }

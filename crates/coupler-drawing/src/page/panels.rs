@@ -66,22 +66,28 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     }
     let (has_facts, has_notes) = (texts.has_facts, texts.has_notes);
     let drawn = draw_panels(&area(panels), page, &figures, period, texts);
-    let mut has_formulas = false;
-    if let (Some(key), Some(rect)) = (page.key, key) {
-        let figures: Vec<&Figure> = figures.iter().flatten().collect();
-        // Where the numbers are left out, the formulas are in the key.
-        let note = key.note.clone().filter(|_| !has_notes);
-        has_formulas = note.is_some();
-        let key = Key { note, ..key.clone() };
-        key_drawing::draw(root, rect, &key, &figures, theme);
-    }
+    // Where the numbers are left out, the formulas are in the key.
+    let note = page.key.filter(|_| has_key && !has_notes).and_then(|key| key.note.clone());
+    let height = |symbols: &[Symbol]| contents(symbols).size.y;
+    let before = height(&symbols);
     symbols.retain(|symbol| match symbol.meaning.as_str() {
         TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => has_facts,
         NOT_ENLARGED => drawn.has_enlarged,
         PLACES_BEYOND => drawn.has_places_beyond,
-        NOTES_LEFT_OUT => !has_notes && !has_formulas,
+        NOTES_LEFT_OUT => !has_notes && note.is_none(),
         _ => true,
     });
+    if let (Some(key), Some(rect)) = (page.key, key) {
+        let figures: Vec<&Figure> = figures.iter().flatten().collect();
+        let key = Key { note, ..key.clone() };
+        // With fewer symbols than there could be, there is more room for its lines than for the panels.
+        let more = match key_drawing::has_all_lines(rect, &key, theme) {
+            true => 0.0,
+            false => (height(&symbols) - before).max(0.0),
+        };
+        let rect = Rect { size: rect.size + Vector::new(0.0, more), ..rect };
+        key_drawing::draw(root, rect, &key, &figures, theme);
+    }
     let scale = symbols::scale_bar(drawn.common_scale(), common_crank(&figures), page.heading.unit);
     for (at, line) in layout_symbols(root, page, &symbols, scale, theme).0 {
         symbols::draw(root, &line, at, theme);
