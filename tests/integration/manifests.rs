@@ -164,7 +164,7 @@ fn one_mistake_does_not_hide_another() {
     {
         assert!(report.contains(message), "{message}:\n{report}");
     }
-    assert_eq!(report.matches("error: ").count(), 6, "{report}");
+    assert_eq!(report.matches("error: ").count(), 5, "{report}");
     let unread = GOOD.replace("grid = { p = [2, 3] }", "cases = [{ p = \"x\", k = -1 }]");
     assert!(problems(&unread).contains("unknown name `x`"));
     let missing = problems(&GOOD.replace("p = [2, 3]", "r = -2"));

@@ -37,7 +37,12 @@ impl NamedSpace {
             NamedSpace::Cases(cases) => {
                 cases.iter().flatten().filter(|(.., value)| value.is_nan()).map(|(name, ..)| name).collect()
             }
-            NamedSpace::Table(..) => Vec::new(),
+            NamedSpace::Table(columns, ..) if columns.is_complete => Vec::new(),
+            NamedSpace::Table(columns, values, _) => {
+                let column = |k: usize| values.iter().skip(k).step_by(columns.names.len());
+                let names = columns.names.iter().enumerate();
+                names.filter(|(k, _)| column(*k).any(|value| value.is_nan())).map(|(_, name)| name).collect()
+            }
         };
         names.into_iter().cloned().collect()
     }
