@@ -82,19 +82,14 @@ pub struct Slot {
 impl Mechanism {
     /// The parts of a linkage on a circuit.
     pub fn new(linkage: &Linkage, circuit: &Circuit) -> Mechanism {
-        let joints = || linkage.joint_ids().zip(&linkage.joints);
         let block = |joint: JointId| linkage.slider_line(joint).map(|line| Block { joint, line });
-        let actuator = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
-            JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
-            _ => None,
-        };
         Mechanism {
             links: circuit.link_outlines(linkage),
             helpers: circuit.helpers(linkage),
             pivots: linkage.pivots(),
             blocks: linkage.joint_ids().filter_map(block).collect(),
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
-            actuators: joints().filter_map(actuator).chain(linkage.driven_distance()).collect(),
+            actuators: linkage.actuators(),
             guides: linkage.joint_ids().flat_map(|joint| find_guides(linkage, circuit, joint)).collect(),
             gears: gears(linkage, circuit),
         }

@@ -77,8 +77,7 @@ impl Plan {
 impl BookPlan {
     /// The options of its pages, which are narrower by the gutter.
     pub(crate) fn page_options(&self, page: &page::Options) -> page::Options {
-        let paper = page::Paper { width: page.paper.width - self.binding, ..page.paper };
-        page.clone().with_paper(paper)
+        page.clone().with_gutter(self.binding)
     }
 }
 

@@ -322,9 +322,13 @@ fn short_title<'t>(k: usize, titles: &[&'t str]) -> &'t str {
 /// The shorter side of the plate that is explained from which it has two panels, in millimetres.
 const LEAST_FOR_TWO_PANELS: f64 = 100.0;
 
-/// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
+/// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels. A drawing of parts is
+/// read as any other of a workshop, and states a paper and a scale that the plate has not.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
-    let chapter = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
+    let chapter = parts.iter().find(|part| {
+        let planned = part.family.pipeline.composer.planned;
+        planned.chart.is_none() && planned.layout != Layout::Drawing
+    })?;
     let planned = chapter.family.pipeline.composer.planned;
     let family = &planned.family;
     // As a plate of smaller paper, on which letters are as small as they may be.

@@ -178,3 +178,29 @@ fn a_single_plate_is_a_single_page_and_a_book_may_have_its_plates_only() {
     assert!(page_count(&manifest("", "[2, 3]")) > 4);
     assert!(page_count(&manifest("[book]", "[2]")) > 3);
 }
+
+#[test]
+fn drawings_state_the_whole_paper_and_are_no_plates_that_are_explained() {
+    let manifest = |others: &str| {
+        format!(
+            "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\npaper = {{ width = \"148 mm\", height = \"105 mm\" }}\n\
+             [book]\nbinding = \"12 mm\"\n[[family]]\nid = \"d\"\nlinkage = \"slider-crank\"\nlayout = \"drawing\"\n\
+             sampling = {{ samples = 24 }}\ncases = [{{}}]\n{others}"
+        )
+    };
+    let panels =
+        "[[family]]\nid = \"p\"\nlinkage = \"jansen\"\npanels = [1, 1]\nsampling = { samples = 24 }\ncases = [{}]\n";
+    for (others, is_explained) in [("", false), (panels, true)] {
+        let atlas = Atlas::rendered(&manifest(others), &[]);
+        let pdf = Pdf::read(&std::fs::read(atlas.out().join("atlas.pdf")).unwrap());
+        let has_title = |(_, title, _): &(usize, String, usize)| title == "How to read this book";
+        assert_eq!(pdf.outline().iter().any(has_title), is_explained);
+        let words: Vec<String> =
+            (0..pdf.pages().len()).flat_map(|page| pdf.contents(page).texts).map(|(words, ..)| words).collect();
+        let papers: Vec<&String> = words
+            .iter()
+            .filter(|word| word.contains(" mm") && word.starts_with(|c: char| c.is_ascii_digit()) && word.contains('×'))
+            .collect();
+        assert_eq!(papers, ["148 × 105 mm"]);
+    }
+}

@@ -21,7 +21,7 @@ impl SelectedCurve<'_> {
     /// Sizes with which they cannot be made, or a slider on the line of no part.
     #[doc(hidden)]
     pub fn parts(&self, given: GivenSizes) -> Result<Parts, PartsError> {
-        Parts::new((&self.solved.linkage, self.circuit()), self.curve().joint, given)
+        Parts::new((&self.solved.linkage, self.circuit()), &[self.curve().joint], given)
     }
 
     /// The files of the linkage's parts, each with the end of its name: `assembly.dxf` of all in the drawn pose with the curve, `OA.dxf` of a link.

@@ -7,34 +7,47 @@ impl Linkage {
     /// traced or loaded or a part of a chain, and that others are placed by. A fixed point that only defines the direction of a line is one, too; two points of a
     /// moving link on whose line another joint slides are its guide.
     pub fn is_helper(&self, joint: JointId) -> bool {
-        let is_fixed = match self.joints[joint].kind {
-            JointKind::Fixed(_) => true,
-            JointKind::Rigid { .. } | JointKind::Aligned { .. } | JointKind::Parallelogram { .. } => false,
-            _ => return false,
-        };
+        self.places_as_mere_point(joint, matches!(self.joints[joint].kind, JointKind::Fixed(_))) == Some(true)
+    }
+
+    /// Whether a joint is a point of one link that nothing is connected to, and that is not traced or loaded or a part of a chain; others may slide on a
+    /// line through it.
+    pub fn is_mere_point(&self, joint: JointId) -> bool {
+        self.places_as_mere_point(joint, true).is_some()
+    }
+
+    /// Whether others are placed by a joint; `None` if it is not a mere point, on whose lines others may slide if `has_line`.
+    fn places_as_mere_point(&self, joint: JointId, has_line: bool) -> Option<bool> {
+        match self.joints[joint].kind {
+            JointKind::Fixed(_)
+            | JointKind::Rigid { .. }
+            | JointKind::Aligned { .. }
+            | JointKind::Parallelogram { .. } => {}
+            _ => return None,
+        }
         let is_shown = self.traced.contains(&joint)
             || self.chains.iter().flatten().any(|shown| *shown == joint)
             || self.load.is_some_and(|load| load.joint == joint);
         if self.link_count(joint) > 1 || is_shown {
-            return false;
+            return None;
         }
         let mut places_another = false;
         for other in &self.joints {
             match self.use_by(&other.kind, joint) {
-                Some(Use::Connection) => return false,
-                Some(Use::Line) if !is_fixed => return false,
+                Some(Use::Connection) => return None,
+                Some(Use::Line) if !has_line => return None,
                 Some(_) => places_another = true,
                 None => {}
             }
         }
         for closure in self.group.iter().flat_map(|group| &group.closures) {
             match closure {
-                Closure::OnLine { line, .. } if is_fixed && line.contains(&joint) => places_another = true,
-                closure if closure.joints().contains(&joint) => return false,
+                Closure::OnLine { line, .. } if has_line && line.contains(&joint) => places_another = true,
+                closure if closure.joints().contains(&joint) => return None,
                 _ => {}
             }
         }
-        places_another
+        Some(places_another)
     }
 
     /// Whether a joint that is drawn is a pin: the foot of a slot's line, a yoke and a rack are none, unless another link is on them.

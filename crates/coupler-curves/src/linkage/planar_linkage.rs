@@ -71,6 +71,15 @@ impl Linkage {
         })
     }
 
+    /// The joints at the ends of the linear actuators that drive it by their length.
+    pub fn actuators(&self) -> Vec<[JointId; 2]> {
+        let piston = |joint: JointId| match self.joints[joint].kind {
+            JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
+            _ => None,
+        };
+        self.joint_ids().filter_map(piston).chain(self.driven_distance()).collect()
+    }
+
     /// Whether a slider drives it.
     pub fn is_driven_by_slider(&self) -> bool {
         self.joints.iter().any(|joint| matches!(joint.kind, JointKind::DrivenSlider { .. }))

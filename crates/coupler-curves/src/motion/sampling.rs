@@ -79,8 +79,18 @@ impl Circuit {
 
     /// The joints of a linkage that only serve to place others, as of [`Linkage::is_helper`], and are in no pin of another joint.
     pub fn helpers(&self, linkage: &Linkage) -> Vec<JointId> {
-        let (helpers, others): (Vec<_>, Vec<_>) = linkage.joint_ids().partition(|&joint| linkage.is_helper(joint));
-        helpers.into_iter().filter(|&helper| !others.iter().any(|&other| self.coincide(helper, other))).collect()
+        self.in_no_other_pin(linkage, |joint| linkage.is_helper(joint))
+    }
+
+    /// The joints of a linkage that are mere points, as of [`Linkage::is_mere_point`], and are in no pin of another joint.
+    pub fn mere_points(&self, linkage: &Linkage) -> Vec<JointId> {
+        self.in_no_other_pin(linkage, |joint| linkage.is_mere_point(joint))
+    }
+
+    /// The joints of a kind that are never where one of another kind is.
+    fn in_no_other_pin(&self, linkage: &Linkage, is_of_kind: impl Fn(JointId) -> bool) -> Vec<JointId> {
+        let (of_kind, others): (Vec<_>, Vec<_>) = linkage.joint_ids().partition(|&joint| is_of_kind(joint));
+        of_kind.into_iter().filter(|&joint| !others.iter().any(|&other| self.coincide(joint, other))).collect()
     }
 
     /// The outlines of the moving links, as of [`Linkage::link_outlines`], through their joints without helpers.

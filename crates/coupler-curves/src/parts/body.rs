@@ -2,7 +2,7 @@
 
 use super::anchor::{Anchor, Frame};
 use super::hole::{Hole, Slot, join_names};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Vector, cross};
 use crate::linkage::{JointId, JointKind, Linkage};
 use crate::motion::Circuit;
 
@@ -15,9 +15,13 @@ pub(super) struct Body {
     pub joints: Vec<(JointId, Point)>,
     pub anchor: Anchor,
     pub holes: Vec<Hole>,
+    /// The centres of holes that are at mere points: they are none where a slot is on a line through them.
+    pub mere_points: Vec<Point>,
     pub slots: Vec<Slot>,
     /// What makes it a block; `None` if it is none.
     pub block: Option<Block>,
+    /// The name that its traced points share, if they are a grid.
+    pub grid_name: Option<String>,
 }
 
 /// What makes a body a block.
@@ -53,6 +57,19 @@ impl Body {
         }
     }
 
+    /// Leaves out holes at mere points on the lines of slots: the points only give the line.
+    pub fn remove_points_of_slots(&mut self) {
+        /// Of positions, relative to the body.
+        const ROUNDING: f64 = 1e-9;
+        let rounding = ROUNDING * Bounds::from_points(self.joints.iter().map(|(_, p)| *p)).size().norm();
+        let is_on = |slot: &Slot, p: Point| {
+            let along = slot.ends[1] - slot.ends[0];
+            cross(along, p - slot.ends[0]).abs() <= rounding * along.norm()
+        };
+        let Body { holes, mere_points, slots, .. } = self;
+        holes.retain(|hole| !mere_points.contains(&hole.centre) || !slots.iter().any(|slot| is_on(slot, hole.centre)));
+    }
+
     /// Whether there is something to be cut.
     pub fn is_part(&self) -> bool {
         let least = if self.is_ground || self.block.is_some() { 1 } else { 2 };
@@ -61,7 +78,10 @@ impl Body {
 
     /// What it is called.
     pub fn name(&self, linkage: &Linkage) -> String {
-        let holes = || self.holes.iter().map(|hole| hole.name.as_str());
+        let number = |hole: &str| hole.strip_prefix(self.grid_name.as_deref()?)?.parse::<usize>().ok();
+        let of_joints = self.holes.iter().map(|hole| hole.name.as_str()).filter(|hole| number(hole).is_none());
+        let names: Vec<&str> = of_joints.chain(self.grid_name.as_deref()).collect();
+        let holes = || names.iter().copied();
         match self.block {
             _ if self.is_ground => "frame".to_owned(),
             Some(Block { joint, noun, .. }) => format!("{noun} {}", linkage.joints[joint].name),
@@ -81,8 +101,8 @@ impl Body {
 }
 
 /// The bodies of a linkage with the holes of their joints: the frame, the links, the blocks. A joint that slides on a line has a block of its own.
-pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: JointId) -> Vec<Body> {
-    let helpers = circuit.helpers(linkage);
+pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: &[JointId]) -> Vec<Body> {
+    let [helpers, mere_points] = [circuit.helpers(linkage), circuit.mere_points(linkage)];
     let outlines = linkage.link_outlines();
     let pivots = linkage.pivots();
     let mut bodies: Vec<Body> = Vec::new();
@@ -105,12 +125,18 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: JointId) -> V
         };
         let has_hole = |joint: JointId| {
             let is_shown = is_on_part(joint) && !helpers.contains(&joint) && linkage.is_pin(joint);
-            is_shown || (joint == traced && !is_ground)
+            is_shown || (traced.contains(&joint) && !is_ground)
         };
-        let mut body = Body { is_ground, joints: joints.clone(), anchor, holes: Vec::new(), slots: Vec::new(), block };
         let mut own: Vec<(JointId, Point)> = joints.iter().copied().filter(|(joint, _)| has_hole(*joint)).collect();
         own.sort_by_key(|(joint, _)| *joint);
-        own.iter().for_each(|&(joint, p)| body.add_hole(&linkage.joints[joint].name, p));
+        let names: Vec<(String, bool)> = own.iter().map(|(joint, _)| hole_name(linkage, *joint)).collect();
+        let grid = own.iter().zip(&names).find(|(_, (_, is_in_grid))| *is_in_grid);
+        let grid_name = grid.map(|((joint, _), _)| linkage.joints[*joint].name.clone());
+        let mere_points = own.iter().filter(|(joint, _)| mere_points.contains(joint)).map(|(_, p)| *p).collect();
+        let (holes, slots) = (Vec::new(), Vec::new());
+        let joints = joints.clone();
+        let mut body = Body { is_ground, joints, anchor, holes, mere_points, slots, block, grid_name };
+        own.iter().zip(&names).for_each(|((_, p), (name, _))| body.add_hole(name, *p));
         bodies.push(body);
     }
     for joint in linkage.joint_ids() {
@@ -125,12 +151,24 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: JointId) -> V
             joints: vec![own],
             anchor: Anchor::Line { joint: own, axis, line },
             holes: vec![Hole { name, centre: Point::origin() }],
+            mere_points: Vec::new(),
             slots: Vec::new(),
             block: Some(Block { joint, noun: "block", axis }),
+            grid_name: None,
         });
     }
     bodies.sort_by_key(|body| (!body.is_ground, body.block.is_some()));
     bodies
+}
+
+/// The name of the hole of a joint: with its number among the curves if it is a point of a grid, which all have one name, and whether it is.
+fn hole_name(linkage: &Linkage, joint: JointId) -> (String, bool) {
+    let name = &linkage.joints[joint].name;
+    let is_in_grid = linkage.joints.iter().filter(|other| other.name == *name).count() > 1;
+    match linkage.traced.iter().position(|traced| *traced == joint) {
+        Some(k) if is_in_grid => (format!("{name}{}", k + 1), true),
+        _ => (name.clone(), false),
+    }
 }
 
 /// The block that a link with these joints is: its first joint slides, and all others are points that keep the direction of its line.

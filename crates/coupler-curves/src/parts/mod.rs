@@ -6,6 +6,7 @@
 //! Everything is held by pins of one diameter: a slot is as wide as a hole, and what slides without turning, such as a yoke, has two guide pins, which
 //! slide in slots on its line, or in one that both use. A slot is longer than what its pins use by half a hole at each end. An actuator is no part.
 
+mod actuator;
 mod anchor;
 mod body;
 mod error;
@@ -17,6 +18,7 @@ mod pitch_circle;
 mod sizes;
 mod slides;
 
+pub use actuator::Actuator;
 pub use error::PartsError;
 pub use hole::{Hole, Slot};
 pub use outline::{Outline, Vertex};
@@ -35,16 +37,18 @@ pub struct Parts {
     pub sizes: Sizes,
     /// The frame first, then the links, the blocks and the gears.
     pub parts: Vec<Part>,
+    /// What drives the linkage by its length, if it is driven so.
+    pub actuator: Option<Actuator>,
 }
 
 impl Parts {
-    /// The parts of a linkage whose slots are as long as a circuit needs, with a hole at a joint whose curve is traced.
+    /// The parts of a linkage whose slots are as long as a circuit needs, with a hole at each joint whose curve is traced.
     ///
     /// # Errors
     /// Sizes with which they cannot be made, or a slider on the line of no part.
     pub fn new(
         (linkage, circuit): (&Linkage, &Circuit),
-        traced: JointId,
+        traced: &[JointId],
         given: GivenSizes,
     ) -> Result<Parts, PartsError> {
         let mut bodies = body::bodies(linkage, circuit, traced);
@@ -56,7 +60,7 @@ impl Parts {
         let mut parts: Vec<Part> = bodies.map(|body| Part::from_body(body, linkage, sizes)).collect();
         parts.extend(gears);
         make_names_distinct(&mut parts);
-        Ok(Parts { sizes, parts })
+        Ok(Parts { sizes, parts, actuator: Actuator::new(linkage, circuit) })
     }
 
     /// The bounds of the parts where they are in a pose.

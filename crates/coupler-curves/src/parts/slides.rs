@@ -43,6 +43,7 @@ pub(super) fn add(
             add_slot(&mut bodies[carrier].slots, Slot { name, ends });
         }
     }
+    bodies.iter_mut().for_each(Body::remove_points_of_slots);
     Ok(())
 }
 

@@ -282,3 +282,54 @@ fn an_svg_of_parts_has_lines_and_arcs_only() {
         }
     });
 }
+
+/// The parts of a linkage in a text with all its traced joints.
+fn parts_of(family: &Family) -> Parts {
+    let solved = Solver::new(family).solve(0).unwrap();
+    let traced: Vec<JointId> = solved.curves.iter().map(|curve| curve.joint).collect();
+    Parts::new((&solved.linkage, solved.circuit(&solved.curves[0])), &traced, GivenSizes::default()).unwrap()
+}
+
+fn hole_names<'p>(parts: &'p Parts, part: &str) -> Vec<&'p str> {
+    let part =
+        parts.parts.iter().find(|other| other.name == part).unwrap_or_else(|| panic!("{part}: {:?}", parts.parts));
+    part.holes.iter().map(|hole| hole.name.as_str()).collect()
+}
+
+#[test]
+fn each_point_of_a_grid_is_a_hole_with_its_number() {
+    let (family, _) = solve("hrones-nelson", &[]);
+    let expected = ["P", "R", "M1", "M2", "M3", "M4", "M5", "M6", "M7", "M8", "M9", "M10"];
+    assert_eq!(hole_names(&parts_of(&family), "PRM"), expected);
+}
+
+/// P is on no other link, but on the line along which the pin A slides.
+#[test]
+fn a_point_that_only_gives_the_line_of_a_slot_is_no_hole() {
+    let linkage = r#"[[linkage]]
+id = "arm"
+trace = ["M"]
+[linkage.drawing]
+joints = { O = [0, 0], A = [1, 0], C = [3, 0.5], P = [2, 0], Q = [0.4, 0], M = [5, 1] }
+frame = ["O", "C"]
+links = [["O", "A"], ["C", "P", "Q", "M"]]
+slides = { A = ["P", "Q"] }
+input = "O A"
+"#;
+    let template = parse_templates(linkage).unwrap().remove(0);
+    let family = Family::single_cell(template.into(), &[], Sampling::Samples(90)).unwrap();
+    let parts = parts_of(&family);
+    assert_eq!(hole_names(&parts, "CM"), ["C", "M"]);
+    let arm = parts.parts.iter().find(|part| part.name == "CM").unwrap();
+    assert_eq!(arm.slots.len(), 1);
+}
+
+#[test]
+fn an_actuator_is_as_long_as_its_circuit_needs() {
+    let actuator = |id: &str| parts_of(&solve(id, &[]).0).actuator;
+    let driven = actuator("linear-actuator").unwrap();
+    assert_eq!(driven.joints, ["C", "A"]);
+    // The frame of 2 and the crank of 1 in line.
+    assert!((driven.lengths[0] - 1.0).abs() < 1e-9 && (driven.lengths[1] - 3.0).abs() < 1e-9, "{:?}", driven.lengths);
+    assert_eq!(actuator("jansen"), None);
+}

@@ -169,7 +169,7 @@ impl LabelBox {
     }
 
     /// The distance of a point; 0 inside.
-    fn distance_to_point(&self, p: Point) -> f64 {
+    pub fn distance_to_point(&self, p: Point) -> f64 {
         let off = p - self.centre;
         Vector::new((off.x.abs() - self.half_size.x).max(0.0), (off.y.abs() - self.half_size.y).max(0.0)).norm()
     }
@@ -233,18 +233,29 @@ impl<'a> LabelPlacer<'a> {
 
     fn add(&mut self, spot: LabelBox, text: Text) -> Item {
         self.placed.push(spot);
-        Item::Text(Text { position: spot.centre + Vector::new(0.0, spot.half_size.y), ..text })
+        let baseline = spot.half_size.y - descent(&text);
+        Item::Text(Text { position: spot.centre + Vector::new(0.0, baseline), ..text })
     }
 
     /// Places a label at a point, where it is clearest of everything.
     pub fn place_at_point(&mut self, centre: Point, text: Text) -> Option<Item> {
-        let (_, spot) = self.clearest_at_point(centre, &text)?;
+        let (_, spot) = self.clearest_at_point(|_| true, centre, &text)?;
         Some(self.add(spot, text))
     }
 
     /// Places a label at a point if it overlaps nothing there.
     pub fn place_if_clear(&mut self, centre: Point, text: Text) -> Option<Item> {
-        let (clearance, spot) = self.clearest_at_point(centre, &text)?;
+        self.place_if_clear_where(|_| true, centre, text)
+    }
+
+    /// Places a label at a point in a box that is allowed if it overlaps nothing there.
+    pub fn place_if_clear_where(
+        &mut self,
+        is_allowed: impl Fn(&LabelBox) -> bool,
+        centre: Point,
+        text: Text,
+    ) -> Option<Item> {
+        let (clearance, spot) = self.clearest_at_point(is_allowed, centre, &text)?;
         self.is_clear(clearance).then(|| self.add(spot, text))
     }
 
@@ -256,7 +267,7 @@ impl<'a> LabelPlacer<'a> {
     }
 
     /// Places a label at a distance from the circle of a radius around its point if it overlaps nothing there, with a line to it from the circle that passes
-    /// no other label; the label and the ends of the line.
+    /// no other label and no disk; the label and the ends of the line.
     pub fn place_apart(
         &mut self,
         (centre, radius): (Point, f64),
@@ -269,14 +280,23 @@ impl<'a> LabelPlacer<'a> {
         let (spot, line) = spots.find_map(|spot| {
             let end = centre.sup(&spot.corner(-1.0, -1.0)).inf(&spot.corner(1.0, 1.0));
             let line = [centre + (end - centre).try_normalize(0.0)? * radius, end];
-            let is_free = self.placed.iter().all(|other| other.distance_to_segment(line) > 0.0);
+            let passes = |(at, radius): &(Point, f64)| {
+                (at - centre).norm() > 0.0 && distance_to_segment(*at, line[0], line[1]) < *radius
+            };
+            let is_free = self.placed.iter().all(|other| other.distance_to_segment(line) > 0.0)
+                && !near.circles.iter().any(passes);
             (is_free && self.is_clear(near.clearance(spot, enough))).then_some((spot, line))
         })?;
         Some((self.add(spot, text), line))
     }
 
     /// The clearest box for a label at a point, with its clearance.
-    fn clearest_at_point(&self, centre: Point, text: &Text) -> Option<(f64, LabelBox)> {
+    fn clearest_at_point(
+        &self,
+        is_allowed: impl Fn(&LabelBox) -> bool,
+        centre: Point,
+        text: &Text,
+    ) -> Option<(f64, LabelBox)> {
         let (half, enough) = (half_size(text), self.enough());
         let within = |radii: f64| (radii + 1.0) * self.joint_radius + 2.0 * half.x;
         let around = self.obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
@@ -288,7 +308,7 @@ impl<'a> LabelPlacer<'a> {
                 near.clearance(spot, enough).min(1.25 * others)
             };
             let boxes = boxes_around(centre, half, radii * self.joint_radius);
-            clearest_box(boxes.filter(|spot| self.is_free(spot)), clearance)
+            clearest_box(boxes.filter(|spot| self.is_free(spot) && is_allowed(spot)), clearance)
         };
         best_box(ring, 1.25 * enough)
     }
@@ -350,9 +370,17 @@ fn far_positions(from: Point, points: &[Point]) -> Vec<Point> {
     far.map(|(_, at)| at).take(MOST_POSITIONS).collect()
 }
 
-/// Half the width and height of a number or a capital.
+/// Half the width and height of a text: of a number or a capital, with what its letters have under their line.
 fn half_size(text: &Text) -> Vector {
-    Vector::new(text.width() / 2.0, 0.37 * text.size)
+    Vector::new(text.width() / 2.0, 0.37 * text.size + 0.5 * descent(text))
+}
+
+/// How far letters of a text are under their line.
+fn descent(text: &Text) -> f64 {
+    /// In ems.
+    const DESCENT: f64 = 0.22;
+    let descends = |c: char| "gjpqyQJ,;()[]_βγζημξρφχψ".contains(c);
+    if text.runs.iter().any(|run| run.text.contains(descends)) { DESCENT * text.size } else { 0.0 }
 }
 
 /// The distances of labels from their points, in radii of a joint.

@@ -7,8 +7,10 @@ use super::theme::Theme;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// The paper.
+    /// The paper, without a gutter.
     pub paper: Paper,
+    /// The width of the gutter by which the sheet is wider than the paper, in millimetres.
+    pub gutter: f64,
     /// The range of the input that a dash and its gap span, in degrees.
     pub dash_deg: f64,
     /// Colours, weights, sizes and typeface, for tabloid paper.
@@ -20,7 +22,20 @@ pub struct Options {
 impl Options {
     /// The default options on a paper: dashes of 5 degrees, ink on cream.
     pub fn for_paper(paper: Paper) -> Options {
-        Options { paper, dash_deg: 5.0, theme: Theme::default(), is_specimen: false }
+        Options { paper, gutter: 0.0, dash_deg: 5.0, theme: Theme::default(), is_specimen: false }
+    }
+
+    /// The options for pages of the same sheet beside a gutter of a width in millimetres, by which the paper is narrower.
+    pub fn with_gutter(self, gutter: f64) -> Options {
+        let paper = Paper { width: self.paper.width - gutter, ..self.paper };
+        Options { paper, gutter: self.gutter + gutter, ..self }
+    }
+
+    /// The paper with the gutter, to a tenth of a micrometre, as sums have noise.
+    pub fn sheet(&self) -> Paper {
+        const PER_MILLIMETRE: f64 = 1e4;
+        let width = (self.paper.width + self.gutter) * PER_MILLIMETRE;
+        Paper { width: width.round() / PER_MILLIMETRE, ..self.paper }
     }
 
     /// The options on another paper.

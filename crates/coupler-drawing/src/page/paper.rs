@@ -30,6 +30,16 @@ impl Paper {
         if is_portrait { Paper { width: short, height: long } } else { Paper { width: long, height: short } }
     }
 
+    /// Larger papers of about the same proportions, by a tenth each, the smallest first; their sides are in steps of 5 mm.
+    pub(super) fn larger(self) -> impl Iterator<Item = Paper> {
+        const STEP: f64 = 5.0;
+        let factors = std::iter::successors(Some(1.1), |factor| Some(1.1 * factor)).take(20);
+        factors.map(move |factor| {
+            let side = |side: f64| (side * factor / STEP).ceil() * STEP;
+            Paper { width: side(self.width), height: side(self.height) }
+        })
+    }
+
     /// The least and the greatest side of a page, in millimetres: on a smaller one, text of [`MIN_TEXT_SIZE`](crate::scene::MIN_TEXT_SIZE)
     /// leaves too little to figures.
     pub const SIDE_RANGE: [f64; 2] = [100.0, 2000.0];

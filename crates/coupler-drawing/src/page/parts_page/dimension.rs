@@ -28,8 +28,21 @@ pub(super) struct Dimension {
 pub(super) const PITCH: f64 = 1.7;
 
 impl Dimension {
-    /// Its lines and its number, which is next to the line where it is too long for it.
-    pub fn items(&self, theme: &Theme) -> Vec<Item> {
+    /// Where its extension lines are: the x of a horizontal dimension, the y of a vertical one.
+    pub fn extensions(&self) -> [f64; 2] {
+        self.ends.map(|end| self.coordinate(end))
+    }
+
+    /// The coordinate of a point that it measures.
+    fn coordinate(&self, p: Point) -> f64 {
+        match self.direction {
+            Direction::Across => p.x,
+            Direction::Up => p.y,
+        }
+    }
+
+    /// Its lines and its number, which is next to the line where it is too long for it, beyond extension lines of others that are there.
+    pub fn items(&self, others: &[f64], theme: &Theme) -> Vec<Item> {
         let size = theme.small_size();
         let arrow = 0.8 * size;
         let feet = self.ends.map(|end| match self.direction {
@@ -54,11 +67,15 @@ impl Dimension {
             let middle = feet[0] + along * (length / 2.0);
             (vec![line(&feet)], [head(feet[0], -along), head(feet[1], along)], middle)
         } else {
-            // The arrows point inwards, and the number is beyond the end that is away from other dimensions.
-            let outside = [feet[0] - along * (1.8 * arrow), feet[1] + along * (1.8 * arrow)];
-            let end = if self.goes_back() { outside[1] } else { outside[0] };
-            let outward = if self.goes_back() { along } else { -along };
-            let middle = end + outward * (width / 2.0 + 0.3 * size);
+            // The arrows point inwards, and the number is beyond the end where it is nearer, at the one that is away from other dimensions if it may be at both.
+            let mut outside = [feet[0] - along * (1.8 * arrow), feet[1] + along * (1.8 * arrow)];
+            let ways = if self.goes_back() { [(1, along), (0, -along)] } else { [(0, -along), (1, along)] };
+            let spots =
+                ways.map(|(k, outward)| (k, outward, self.room(outside[k], outward, width + 0.6 * size, others)));
+            let nearest = |a: (usize, Vector, f64), b: (usize, Vector, f64)| if b.2 < a.2 { b } else { a };
+            let (k, outward, further) = spots.into_iter().reduce(nearest).unwrap_or(spots[0]);
+            outside[k] += outward * further;
+            let middle = outside[k] + outward * (width / 2.0 + 0.3 * size);
             (vec![line(&outside)], [head(feet[0], along), head(feet[1], -along)], middle)
         };
         let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
@@ -73,6 +90,21 @@ impl Dimension {
             Item::Path(Path { polylines: heads.to_vec(), stroke: None, fill: Some(theme.grey) }),
             Item::Text(Text { position, quarter_turns, ..text }),
         ]
+    }
+
+    /// How much further than a point, in a direction, a text of a width begins that no line of others passes.
+    fn room(&self, from: Point, outward: Vector, width: f64, others: &[f64]) -> f64 {
+        let start = self.coordinate(from);
+        let sign = self.coordinate(Point::from(outward));
+        let mut distances: Vec<f64> = others.iter().map(|at| sign * (at - start)).collect();
+        distances.sort_by(f64::total_cmp);
+        let mut further = 0.0;
+        for distance in distances {
+            if (further..further + width).contains(&distance) {
+                further = distance;
+            }
+        }
+        further
     }
 
     /// Whether it leads to the left or down: its number is beyond its second end where it does not fit, on the side without other dimensions.

@@ -1,47 +1,60 @@
 //! Views side by side in rows.
 
 use super::super::rect::Rect;
+use super::super::theme::Theme;
 use super::part_view::{PartView, Views};
 use crate::scene::Item;
-use coupler_curves::geometry::Vector;
+use coupler_curves::geometry::{Point, Vector};
 
-/// The views of parts at a scale in rows of a rectangle, the highest first; `None` if they do not fit.
+/// The views of parts at a scale in rows of a rectangle; `None` if they do not fit.
 pub(super) fn layout(parts: &Views, scale: f64, rect: Rect) -> Option<Vec<Vec<Item>>> {
-    let mut views: Vec<PartView> = parts.groups.iter().map(|group| parts.view(group, scale)).collect();
-    views.sort_by(|a, b| b.size.y.total_cmp(&a.size.y));
-    let gap = 1.5 * parts.theme.note_size;
-    let mut rows: Vec<(f64, f64, Vec<PartView>)> = Vec::new();
-    for view in views {
-        if view.size.x > rect.size.x {
+    let views = parts.all(scale);
+    let corners = corners(&sizes(&views), rect, parts.theme)?;
+    Some(views.into_iter().zip(corners).map(|(view, corner)| view.placed(corner)).collect())
+}
+
+/// The sizes of views.
+pub(super) fn sizes(views: &[PartView]) -> Vec<Vector> {
+    views.iter().map(|view| view.size).collect()
+}
+
+/// The upper left corners of views of some sizes in rows of a rectangle, of which the highest are the first; `None` if they do not fit.
+pub(super) fn corners(sizes: &[Vector], rect: Rect, theme: &Theme) -> Option<Vec<Point>> {
+    let gap = 1.5 * theme.note_size;
+    let mut by_height: Vec<usize> = (0..sizes.len()).collect();
+    by_height.sort_by(|&a, &b| sizes[b].y.total_cmp(&sizes[a].y));
+    let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
+    for k in by_height {
+        let width = sizes[k].x;
+        if width > rect.size.x {
             return None;
         }
-        match rows.iter_mut().find(|(width, ..)| width + gap + view.size.x <= rect.size.x) {
-            Some((width, _, row)) => {
-                *width += gap + view.size.x;
-                row.push(view);
+        match rows.iter_mut().find(|(filled, _)| filled + gap + width <= rect.size.x) {
+            Some((filled, row)) => {
+                *filled += gap + width;
+                row.push(k);
             }
-            None => rows.push((view.size.x, view.size.y, vec![view])),
+            None => rows.push((width, vec![k])),
         }
     }
-    let height = rows.iter().map(|(_, height, _)| height + gap).sum::<f64>() - gap;
+    let height = rows.iter().map(|(_, row)| sizes[row[0]].y + gap).sum::<f64>() - gap;
     if height > rect.size.y {
         return None;
     }
     // What is left of the height is between the rows, and of the width between the views.
     let between = ((rect.size.y - height) / rows.len() as f64).min(4.0 * gap);
-    let mut out = Vec::new();
+    let mut corners = vec![rect.corner; sizes.len()];
     let mut y = 0.0;
-    for (width, height, row) in rows {
+    for (width, row) in rows {
         let spare = ((rect.size.x - width) / row.len() as f64).min(4.0 * gap);
         let mut x = 0.0;
-        for view in row {
-            let step = view.size.x + gap + spare;
-            out.push(view.placed(rect.corner + Vector::new(x, y)));
-            x += step;
+        for &k in &row {
+            corners[k] += Vector::new(x, y);
+            x += sizes[k].x + gap + spare;
         }
-        y += height + gap + between;
+        y += sizes[row[0]].y + gap + between;
     }
-    Some(out)
+    Some(corners)
 }
 
 /// The greatest scale up to one at which something fits, to one in a thousand; that one itself over a million if there is none.

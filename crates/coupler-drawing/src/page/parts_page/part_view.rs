@@ -1,7 +1,7 @@
 //! The view of a part: its outline, holes and slots, their centre lines, letters and dimensions, under its name.
 
 use super::super::element::translated;
-use super::super::labels::{LabelPlacer, Obstacles};
+use super::super::labels::{LabelBox, LabelPlacer, Obstacles};
 use super::super::rect::Rect;
 use super::super::scales::{format_scale, usual_scale_below};
 use super::super::theme::Theme;
@@ -40,8 +40,13 @@ impl Views<'_> {
         self.groups.iter().map(extent).fold(0.0, f64::max)
     }
 
+    /// The views of all at a scale in millimetres to a unit.
+    pub fn all(&self, scale: f64) -> Vec<PartView> {
+        self.groups.iter().map(|group| self.view(group, scale)).collect()
+    }
+
     /// The view of parts of one shape at a scale in millimetres to a unit; a part that would be too small to be seen has a greater one of its own.
-    pub fn view(&self, group: &Group, scale: f64) -> PartView {
+    fn view(&self, group: &Group, scale: f64) -> PartView {
         let &Views { sizes, theme, .. } = self;
         let own_scale = self.scale_of_small(group, scale);
         let page_from_part = Similarity::with_y_down(own_scale.unwrap_or(scale), Point::origin());
@@ -51,7 +56,10 @@ impl Views<'_> {
         for direction in [Direction::Up, Direction::Across] {
             let around = bounds(&items);
             let dimensions = dimensions(part, direction, around, &page_from_part, theme);
-            items.extend(dimensions.iter().flat_map(|dimension| dimension.items(theme)));
+            // The extension lines of those further out pass the others.
+            let extensions: Vec<[f64; 2]> = dimensions.iter().map(Dimension::extensions).collect();
+            let passing = |k: usize| extensions[k + 1..].as_flattened();
+            items.extend(dimensions.iter().enumerate().flat_map(|(k, dimension)| dimension.items(passing(k), theme)));
         }
         let with_dimensions = bounds(&items);
         items.extend(letters((part, sizes), &items, with_dimensions, &page_from_part, theme));
@@ -203,6 +211,7 @@ fn letters(
             (page_from_part.apply(hole.centre), text)
         })
         .collect();
+    let centres: Vec<Point> = part.holes.iter().map(|hole| page_from_part.apply(hole.centre)).collect();
     // Names may be around everything else.
     let widest = named.iter().map(|(_, text)| text.width()).fold(0.0, f64::max);
     let room = Vector::new(widest + 3.0 * size, 4.0 * size);
@@ -215,7 +224,13 @@ fn letters(
             let (cos, sin) = trig::cos_sin_deg(deg);
             centre + Vector::new(cos, -sin) * (radius + 0.5 * size)
         };
-        let beside = DIRECTIONS_DEG.iter().find_map(|deg| placer.place_if_clear(around(*deg), text.clone()));
+        // Nearer to its own hole than to any other.
+        let is_nearest = |spot: &LabelBox| {
+            let reach = NEAREST * spot.distance_to_point(centre);
+            centres.iter().all(|other| *other == centre || spot.distance_to_point(*other) > reach)
+        };
+        let beside =
+            DIRECTIONS_DEG.iter().find_map(|deg| placer.place_if_clear_where(is_nearest, around(*deg), text.clone()));
         if let Some(name) = beside {
             out.push(name);
             continue;
@@ -235,6 +250,9 @@ fn letters(
 
 /// Where names are sought around a hole: first where no dimension leads away from it.
 const DIRECTIONS_DEG: [f64; 8] = [45.0, 135.0, 0.0, 90.0, 180.0, 315.0, 225.0, 270.0];
+
+/// How much further than its own hole all others are from a name without a line.
+const NEAREST: f64 = 1.3;
 
 /// How far from their hole names with a line are sought, in ems.
 const DISTANCES: [f64; 10] = [1.5, 2.5, 4.0, 6.0, 9.0, 13.0, 18.0, 26.0, 38.0, 54.0];

@@ -8,7 +8,7 @@ use super::dimension::length_text;
 use super::group::Group;
 use crate::scene::{Anchor, Color, Item, MIN_TEXT_SIZE, Path};
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::parts::{Outline, Part, Parts, Slot};
+use coupler_curves::parts::{Actuator, Hole, Outline, Part, Parts, Slot};
 use coupler_curves::text::pluralize;
 
 /// The number of columns.
@@ -41,10 +41,11 @@ const GAP: f64 = 0.3;
 impl<'t> Table<'t> {
     /// The table of some parts, those of one shape in a row.
     pub fn new(groups: &[Group], parts: &Parts, theme: &'t Theme) -> Table<'t> {
+        let actuator = parts.actuator.iter().map(|actuator| (actuator_row(actuator), 1));
         let [hole, link] = [parts.sizes.hole, parts.sizes.width].map(length_text);
         Table {
             head: ["part", "n", "holes", "centres apart"].map(str::to_owned),
-            rows: groups.iter().map(|group| (row(group), group.names.len())).collect(),
+            rows: groups.iter().map(|group| (row(group), group.names.len())).chain(actuator).collect(),
             notes: vec![format!("holes and slots {hole} wide, links {link}")],
             theme,
         }
@@ -56,14 +57,23 @@ impl<'t> Table<'t> {
         self
     }
 
-    /// Whether all of it fits a rectangle of a size.
-    pub fn fits(&self, size: Vector) -> bool {
-        self.fitting(size).is_some()
+    /// The number of its rows.
+    pub fn row_count(groups: &[Group], parts: &Parts) -> usize {
+        groups.len() + usize::from(parts.actuator.is_some())
+    }
+
+    /// How many rows fit a rectangle of a size; `None` if not even how many parts are left out.
+    pub fn rows_in(&self, size: Vector) -> Option<usize> {
+        if self.fitting(size).is_some() {
+            return Some(self.rows.len());
+        }
+        (0..self.rows.len()).rev().find(|count| self.set(*count, size.x, self.smallest()).height() <= size.y)
     }
 
     /// Draws the table in the greatest size of text in which it fits; where none does, as many rows as fit, and how many parts are left out.
     pub fn draw(&self, root: &impl Area, rect: Rect) {
-        let set = self.fitting(rect.size).unwrap_or_else(|| self.cut(rect.size));
+        let cut = || self.set(self.rows_in(rect.size).unwrap_or_default(), rect.size.x, self.smallest());
+        let set = self.fitting(rect.size).unwrap_or_else(cut);
         root.record(Drawing { class: "parts", title: String::new(), items: set.items(rect, self.theme) });
     }
 
@@ -75,12 +85,6 @@ impl<'t> Table<'t> {
         let sizes = [1.0, 0.9, 0.8, 0.0].map(|part| (part * self.theme.note_size).max(self.smallest()));
         let set = |em: f64| self.set(self.rows.len(), size.x, em);
         sizes.into_iter().map(set).find(|set| set.height() <= size.y)
-    }
-
-    /// As many of the first rows as fit at the smallest size of text.
-    fn cut(&self, size: Vector) -> SetRows {
-        let set = |count: usize| self.set(count, size.x, self.smallest());
-        (1..self.rows.len()).rev().map(set).find(|set| set.height() <= size.y).unwrap_or_else(|| set(0))
     }
 
     /// The first rows in a width.
@@ -147,15 +151,21 @@ fn line_count(row: &[Vec<String>; COLUMNS]) -> usize {
     row.iter().map(Vec::len).max().unwrap_or_default()
 }
 
+/// The most holes of a part whose distances are in the table.
+const MOST_HOLES: usize = 6;
+
 fn row(group: &Group) -> [String; COLUMNS] {
     let Part { holes, slots, outline, .. } = group.part;
     let slot_count = if slots.is_empty() { String::new() } else { format!(" + {}", slots.len()) };
-    let named: Vec<_> = holes.iter().filter(|hole| !hole.name.is_empty()).collect();
-    // The distances from the first two determine where all others are.
-    let pairs = (1..named.len()).flat_map(|k| (0..k.min(2)).map(move |j| (j, k)));
+    let is_named = |k: usize| !holes[k].name.is_empty();
+    // The distances from the first two determine where all others are; pins that only guide or hold are on a line of the view.
+    let pairs = (1..holes.len()).flat_map(|k| (0..if is_named(k) { k.min(2) } else { 1 }).map(move |j| (j, k)));
+    let name = |hole: &Hole| if hole.name.is_empty() { "pin".to_owned() } else { hole.name.clone() };
+    let pairs = pairs.filter(|(_, k)| *k < MOST_HOLES);
+    let others = (holes.len() > MOST_HOLES).then(|| "others as dimensioned".to_owned());
     let distance = |(j, k): (usize, usize)| {
-        let (a, b) = (named[j], named[k]);
-        format!("{}–{} {}", a.name, b.name, length_text((b.centre - a.centre).norm()))
+        let (a, b) = (&holes[j], &holes[k]);
+        format!("{}–{} {}", name(a), name(b), length_text((b.centre - a.centre).norm()))
     };
     let slot = |slot: &Slot| format!("slot {} {}", slot.name, length_text((slot.ends[1] - slot.ends[0]).norm()));
     let radius = match outline {
@@ -164,6 +174,16 @@ fn row(group: &Group) -> [String; COLUMNS] {
         }
         _ => None,
     };
-    let words: Vec<String> = pairs.map(distance).chain(slots.iter().map(slot)).chain(radius).collect();
+    let mut words: Vec<String> =
+        pairs.map(distance).chain(others).chain(slots.iter().map(slot)).chain(radius).collect();
+    // Both guide pins of a block are as far from its joint.
+    words.dedup();
     [group.names.join(", "), group.names.len().to_string(), format!("{}{slot_count}", holes.len()), words.join(" · ")]
+}
+
+/// The row of an actuator, which has the least and the greatest distance of its pins.
+fn actuator_row(actuator: &Actuator) -> [String; COLUMNS] {
+    let [a, b] = &actuator.joints;
+    let [least, greatest] = actuator.lengths.map(length_text);
+    ["actuator".to_owned(), "1".to_owned(), "2".to_owned(), format!("{a}–{b} {least} to {greatest}")]
 }

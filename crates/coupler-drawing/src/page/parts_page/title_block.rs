@@ -17,7 +17,10 @@ pub(super) struct TitleBlock<'a> {
     pub number: usize,
     /// The parameters of the cell, as far as they vary; may be empty.
     pub parameters: &'a str,
+    /// The paper with a gutter.
     pub paper: Paper,
+    /// Whether it is without what the page says at its head and at its foot.
+    pub is_short: bool,
 }
 
 /// A label with its text.
@@ -116,20 +119,22 @@ impl TitleBlock<'_> {
     }
 
     /// The fields, those together that may be in one row.
-    fn fields(&self) -> [Vec<Field>; 6] {
+    fn fields(&self) -> [Vec<Field>; 5] {
         let heading = &self.page.heading;
         let field = |label, text: &str| Field { label, text: text.to_owned() };
         // The scale is known when the views are arranged; no statement of it is wider than these.
         let scales = [1234.0, 0.001_234].map(|scale| format_scale(scale, heading.unit));
         let [scale, other] = &scales;
         let load = self.page.key.and_then(|key| key.load.as_deref()).unwrap_or_default();
+        let elsewhere = |label, text| if self.is_short { Vec::new() } else { vec![field(label, text)] };
         [
-            vec![field("title", heading.family_title)],
-            vec![field("atlas", heading.atlas_title)],
+            elsewhere("title", heading.family_title),
+            elsewhere("atlas", heading.atlas_title),
             vec![field(PARAMETERS, self.parameters)],
             vec![field("load", load)],
-            vec![field("family", heading.family_id), field("number", &self.number.to_string())],
             vec![
+                field("family", heading.family_id),
+                field("number", &self.number.to_string()),
                 field(SCALE, if other.len() > scale.len() { other } else { scale }),
                 field("unit", heading.unit.map_or("its own", LengthUnit::symbol)),
                 field("paper", &paper_name(self.paper)),
