@@ -97,7 +97,8 @@ pub(super) fn finding_charts(
         let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).collect();
         let number = (is_divided && varying.len() < 2).then(|| format!("({part})"));
         let dimensions = Some(parts.join(", ")).filter(|said| !said.is_empty());
-        let family = names_family.then(|| planned.family.title.clone());
+        // A number alone says nothing in the contents.
+        let family = (names_family || number.is_some()).then(|| planned.family.title.clone());
         let title = family.into_iter().chain(dimensions).collect::<Vec<_>>().join(": ");
         let title =
             [Some(title).filter(|title| !title.is_empty()), number].into_iter().flatten().collect::<Vec<_>>().join(" ");

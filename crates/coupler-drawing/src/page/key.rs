@@ -15,8 +15,8 @@ pub struct Key {
     pub dimensions: Vec<MathText>,
     /// The name of each joint, and how it is placed; those that only serve to place others come last.
     pub joints: Vec<(String, MathText)>,
-    /// Whether the drawing has the numbers of the joints, from 1, in place of their names, which are too long for it.
-    pub is_numbered: bool,
+    /// What the drawing has at pins.
+    pub(super) marks: PinMarks,
     /// Those of them that are no pins, but points of moving links.
     pub helpers: Vec<String>,
     /// Those of the joints that are so far from the linkage that the drawing does not have them.
@@ -57,7 +57,7 @@ impl Key {
         let is_moving = |(_, joint): &&(usize, &JointTemplate)| !matches!(joint.kind, JointKindTemplate::Fixed(_));
         Key {
             dimensions,
-            is_numbered: false,
+            marks: PinMarks::Names,
             helpers: helpers.iter().filter(is_moving).map(|(_, joint)| displayed_name(&joint.name)).collect(),
             beyond: Vec::new(),
             joints: pins.into_iter().chain(helpers).map(joint).collect(),
@@ -69,19 +69,48 @@ impl Key {
     }
 }
 
+/// What the drawing of a key has at pins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum PinMarks {
+    /// The names of their joints.
+    #[default]
+    Names,
+    /// The numbers of their joints in the key, from 1, as a name is too long.
+    Numbers,
+    /// Letters in their place, from a, where curves have numbers.
+    Letters,
+}
+
 impl Key {
-    /// What the drawing has at a pin: the names of its joints that are in the key, or their numbers.
+    /// The mark of a joint by its index in the key; `None` if that is its name.
+    pub(super) fn mark(&self, k: usize) -> Option<String> {
+        const LETTERS: [char; 26] = [
+            'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', 'i', 'j', 'k', 'l', 'm', 'n', 'o', 'p', 'q', 'r', 's', 't', 'u',
+            'v', 'w', 'x', 'y', 'z',
+        ];
+        match self.marks {
+            PinMarks::Names => None,
+            PinMarks::Numbers => Some((k + 1).to_string()),
+            PinMarks::Letters => {
+                let round = k / LETTERS.len();
+                let round = if round > 0 { round.to_string() } else { String::new() };
+                Some(format!("{}{round}", LETTERS[k % LETTERS.len()]))
+            }
+        }
+    }
+
+    /// What the drawing has at a pin: the names of its joints that are in the key, or their marks.
     pub(super) fn pin_label(&self, names: &[String]) -> String {
         let is_known = |name: &&String| self.joints.iter().any(|(own, _)| own.split(", ").any(|own| own == *name));
         let known: Vec<String> = names.iter().filter(is_known).cloned().collect();
         let names = if known.is_empty() { names } else { &known };
         let whole = names.join(", ");
-        let number = |name: &String| self.joints.iter().position(|(own, _)| own == name).map(|k| (k + 1).to_string());
-        match (self.is_numbered, number(&whole)) {
-            (false, _) => whole,
-            (true, Some(number)) => number,
-            (true, None) => names.iter().map(|name| number(name).unwrap_or_default()).collect::<Vec<_>>().join(", "),
+        if self.marks == PinMarks::Names {
+            return whole;
         }
+        let mark = |name: &String| self.joints.iter().position(|(own, _)| own == name).and_then(|k| self.mark(k));
+        let each = || names.iter().map(|name| mark(name).unwrap_or_default()).collect::<Vec<_>>().join(", ");
+        mark(&whole).unwrap_or_else(each)
     }
 
     /// The key in which joints that are one pin on all pages of some linkages are one line with both names.

@@ -4,7 +4,7 @@ use super::area::Area;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
-use super::key::Key;
+use super::key::{Key, PinMarks};
 use super::labels::{LabelPlacer, Obstacles};
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
@@ -57,7 +57,9 @@ fn least_distance(mechanism: &PosedMechanism, circuit: &Circuit) -> f64 {
 pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure], theme: &Theme) {
     let (drawing, text) = drawing_and_text(rect, key, theme);
     let mut key = key.clone().with_common_pins(&common_pins(figures));
-    key.is_numbered = needs_numbers(&key, drawing.x, theme);
+    if needs_marks(&key, drawing.x, theme) {
+        key.marks = PinMarks::Numbers;
+    }
     if let Some((figure, mechanism)) =
         clearest_figure(figures).and_then(|figure| Some((figure, figure.mechanisms.first()?)))
     {
@@ -124,8 +126,8 @@ pub(super) fn has_all_lines(rect: Rect, key: &Key, theme: &Theme) -> bool {
 /// The lines of the remarks on the drawing that are added to those of a key.
 pub(super) const MORE_REMARKS: usize = 3;
 
-/// Whether a drawing of a width has the numbers of the joints, as a name is too long for it.
-pub(super) fn needs_numbers(key: &Key, width: f64, theme: &Theme) -> bool {
+/// Whether a drawing of a width has marks of the joints in place of names, as one is too long for it.
+pub(super) fn needs_marks(key: &Key, width: f64, theme: &Theme) -> bool {
     let name_width =
         |name: &str| theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width();
     key.joints.iter().any(|(name, _)| name_width(name) > MAX_NAME_PART * width)
@@ -185,7 +187,7 @@ impl KeyLines {
         let width = rect.size.x / columns - em;
         let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
         let name = |(k, (name, _)): (usize, &(String, MathText))| {
-            let words = if key.is_numbered { format!("{} {name}", k + 1) } else { name.clone() };
+            let words = key.mark(k).map_or(name.clone(), |mark| format!("{mark} {name}"));
             line(&MathText::from_words(words), theme.ink)
         };
         let names: Vec<TextLine> = key.joints.iter().enumerate().map(name).collect();

@@ -9,7 +9,7 @@ const VISIBLE: f64 = 1e-3;
 const ROUNDING: f64 = 1e-6;
 
 /// The label of each line for the quantity at an index: with those of the later lines that coincide with it, and empty if
-/// all lines do; `None` if it coincides with an earlier line.
+/// all lines do; `None` if it coincides with an earlier line, or has no values.
 ///
 /// Measures of the linkage, for example, are the same for each of its traced points, and a point has one path whatever drives its link.
 pub(super) fn shared_labels(
@@ -22,22 +22,25 @@ pub(super) fn shared_labels(
         let [x, y] = [0, 1].map(|k| axes[k].fraction(values[k]));
         Some(Point::new(x?, y?))
     };
-    // Lines through samples are drawn through more of them.
-    let points = |line: &Series| match source {
-        PointSource::Curves => line.points(quantity_index).map(on_axes).collect(),
-        PointSource::Samples => line.path(quantity_index).into_iter().map(on_axes).collect(),
+    // Both lines through samples and those through linkages may be drawn through more points, and between linkages without values.
+    let drawn: Vec<Vec<Option<Point>>> =
+        series.iter().map(|line| line.path(quantity_index).into_iter().map(on_axes).collect()).collect();
+    let at_points: Vec<Vec<Option<Point>>> =
+        series.iter().map(|line| line.points(quantity_index).map(on_axes).collect()).collect();
+    let are_drawn_as_one = |a: usize, b: usize| {
+        has_same_points(&drawn[a], &drawn[b], VISIBLE)
+            || runs_along(&drawn[a], &drawn[b]) && runs_along(&drawn[b], &drawn[a])
     };
-    let lines: Vec<Vec<Option<Point>>> = series.iter().map(points).collect();
     let coincide = |a: usize, b: usize| match source {
         // Each point is a linkage, which has a mark.
-        PointSource::Curves => has_same_points(&lines[a], &lines[b], ROUNDING),
-        PointSource::Samples => {
-            has_same_points(&lines[a], &lines[b], VISIBLE)
-                || runs_along(&lines[a], &lines[b]) && runs_along(&lines[b], &lines[a])
-        }
+        PointSource::Curves => has_same_points(&at_points[a], &at_points[b], ROUNDING) && are_drawn_as_one(a, b),
+        PointSource::Samples => are_drawn_as_one(a, b),
     };
+    let is_empty = |k: usize| at_points[k].iter().chain(&drawn[k]).all(Option::is_none);
+    let all_empty = (0..series.len()).all(is_empty);
     let mut groups: Vec<Vec<usize>> = Vec::new();
-    for k in 0..series.len() {
+    // A line without values has no label, unless there is none with any.
+    for k in (0..series.len()).filter(|&k| all_empty || !is_empty(k)) {
         match groups.iter_mut().find(|group| coincide(group[0], k)) {
             Some(group) => group.push(k),
             None => groups.push(vec![k]),
@@ -106,6 +109,7 @@ fn joined_label(labels: Vec<&str>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chart::LinePath;
 
     #[test]
     fn coinciding_lines_share_a_label() {
@@ -140,5 +144,11 @@ mod tests {
         assert_eq!(labels(&[b.clone(), almost, f.clone()]), ["b; d", "-", "d"]);
         assert_eq!(labels(&[b.clone(), e.clone(), f.clone()]), ["b", "d", "d"]);
         assert_eq!(labels_of(&[b, e, f], PointSource::Samples), ["b; d", "-", "d"]);
+        // Of lines without values at linkages, one may have some between them, and only that one is there.
+        let none = line("g", &[f64::NAN, f64::NAN]);
+        let path = LinePath { points: vec![[1.2, 0.5], [1.4, 1.0]], range: None };
+        let between = Series { label: "h".to_owned(), paths: vec![path], ..none.clone() };
+        assert_eq!(labels(&[none.clone(), between, none.clone()]), ["-", "h", "-"]);
+        assert_eq!(labels(&[none.clone(), none]), ["", "-"]);
     }
 }

@@ -10,7 +10,7 @@ use super::columns::finite;
 use super::notes::format_inputs;
 use super::turn::change_point_inputs;
 use crate::scene::{Anchor, Color};
-use coupler_curves::expression::join_names;
+use coupler_curves::expression::{displayed_name, join_names};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::measure::Measure;
@@ -98,7 +98,7 @@ fn change_point_note(solved: &SolvedCell) -> String {
 
 /// A line for each link of a four-bar: what it is, its joints, its length in full with its name, and the direction of a frame that is
 /// not along the x-axis.
-fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
+pub(super) fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
     let Some([o, a, b, c]) = FourBar::pins(linkage) else { return Vec::new() };
     let output = output_joints(linkage);
     let line = |(role, joints): (&str, [JointId; 2])| {
@@ -106,7 +106,7 @@ fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
         let length = format_in_full(length(linkage, joints)?);
         let label = labels.iter().find(|label| is_same(label.joints, joints)).map(|label| label.text.as_str());
         let is_named = label.is_some_and(|label| label.parse::<f64>().is_err());
-        let named = label.filter(|_| is_named).map_or(String::new(), |label| format!("{label} = "));
+        let named = label.filter(|_| is_named).map_or(String::new(), |label| format!("{} = ", displayed_name(label)));
         let is_output = output.is_some_and(|output| is_same(joints, output));
         let ends = if joints == [o, c] { slanted_ends(linkage, joints) } else { None };
         let ends = ends.unwrap_or_default();

@@ -11,6 +11,7 @@ use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
 use super::shown_curve::ShownCurve;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
+use coupler_curves::expression::displayed_name;
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, Linkage, is_plate};
 
@@ -223,16 +224,17 @@ impl<'a> Key<'a> {
                 && is_short(name_width(&label.text, self.theme), self.frame)
         };
         let links = self.page.labels.iter().filter(is_link);
-        let mut names: Vec<(&str, [Point; 2], Option<Point>)> =
-            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)), None)).collect();
+        let mut names: Vec<(String, [Point; 2], Option<Point>)> =
+            links.map(|label| (displayed_name(&label.text), label.joints.map(|joint| self.at(joint)), None)).collect();
         if let Some([from, foot, point]) = self.coordinate_corners() {
             // On the other side of the point, so that it cannot be read as the name of the line across.
-            let coordinates = [("across", [foot, point], None), ("along", [foot, from], Some(point))];
+            let coordinates = [("across", [foot, point], None), ("along", [foot, from], Some(point))]
+                .map(|(name, ends, not_beside)| (name.to_owned(), ends, not_beside));
             names.extend(coordinates.into_iter().filter(|(_, [a, b], _)| (b - a).norm() > 0.8 * self.letter));
         }
         let mut placed: Vec<(TextLine, LabelBox)> = Vec::new();
         for (name, ends, not_beside) in names {
-            let line = self.theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, self.theme.grey);
+            let line = self.theme.text_line(&name, Point::origin(), Anchor::Middle, self.letter, self.theme.grey);
             let mut line = line.with_italics(self.page.heading.symbols);
             let half = self.half_size(&line.text);
             let is_free = |spot: &LabelBox| {

@@ -34,6 +34,7 @@ use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Group, Item, MIN_TEXT_SIZE, Path, Scene};
+use coupler_curves::expression::MathText;
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -252,7 +253,12 @@ fn description(page: &CouplerGridPage, shown: &[ShownCurve]) -> String {
         [only] => format!("; curve of point {only}"),
         [first, .., last] => format!("; curves of {} points, from {first} to {last}", traces.len()),
     };
-    page.panel.description(page.heading.family_title, &[]) + &curves
+    let lengths = description::dimensions(&page.panel.solved_cell.linkage, page.labels);
+    let dimensions = match page.key {
+        Some(key) => key.dimensions.clone(),
+        None => lengths.into_iter().map(MathText::from_words).collect(),
+    };
+    page.panel.description(page.heading.family_title, &dimensions) + &curves
 }
 
 /// The points of a page without repetition, with their positions on it.

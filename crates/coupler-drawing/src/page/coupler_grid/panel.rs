@@ -2,7 +2,7 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
-use super::super::key::Key;
+use super::super::key::{Key, PinMarks};
 use super::super::key_drawing;
 use super::super::mechanism::PosedMechanism;
 use super::super::rect::Rect;
@@ -30,11 +30,11 @@ pub(super) struct PanelContents<'a> {
 
 impl<'a> PanelContents<'a> {
     pub fn new(page: &'a CouplerGridPage, width: f64, shown: &'a [ShownCurve], theme: &Theme) -> PanelContents<'a> {
-        let numbered = |key: &Key| {
-            let is_numbered = key_drawing::needs_numbers(key, 0.5 * width, &key_theme(theme));
-            Key { is_numbered, ..key.clone() }
+        let marked = |key: &Key| {
+            let needs_marks = key_drawing::needs_marks(key, 0.5 * width, &key_theme(theme));
+            Key { marks: if needs_marks { PinMarks::Letters } else { PinMarks::Names }, ..key.clone() }
         };
-        let key = page.key.map(numbered);
+        let key = page.key.map(marked);
         let description = Description::new(page, key.as_ref(), PanelLayout::description_width(width, theme), theme);
         PanelContents { page, shown, width, key, description, table: Table::new(page, width, theme) }
     }
@@ -56,12 +56,7 @@ impl<'a> PanelContents<'a> {
         let heights = [description.height(), notes.height(theme).max(strip_height)];
         let parts = PanelLayout::new(panel, table, heights, theme);
 
-        let key_width = (0.5 * panel.size.x).min(1.8 * parts.key.size.y);
-        let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
-        self.draw_key(area, key, mechanism, theme);
-        let after_key = Vector::new(key_width + em, 0.0);
-        let frame = Rect { corner: parts.key.corner + after_key, size: parts.key.size - after_key };
-        description.draw(area, frame, page, self.key.as_ref(), theme);
+        self.draw_key_with_description(area, parts.key, mechanism, theme);
 
         let rows = table.draw(area, parts.table, parts.row_height, shown, theme);
         if let Some((left, graphs)) = &graphs {
@@ -76,6 +71,22 @@ impl<'a> PanelContents<'a> {
         }
         let notes_frame = Rect { size: Vector::new(notes_width, parts.foot.size.y), ..parts.foot };
         notes.draw(area, notes_frame, page, theme);
+    }
+
+    /// Draws the key, and next to it the description. Where that has too little space, it is drawn alone, with the names of joints, as it
+    /// says all that the key does.
+    fn draw_key_with_description(&self, area: &impl Area, frame: Rect, mechanism: &PosedMechanism, theme: &Theme) {
+        let PanelContents { page, key, description, .. } = self;
+        if description.height() > frame.size.y * (1.0 + 1e-9) {
+            let key = key.as_ref().map(|key| Key { marks: PinMarks::Names, ..key.clone() });
+            let alone = Description::new(page, key.as_ref(), frame.size.x, theme);
+            return alone.draw(area, frame, page, key.as_ref(), theme);
+        }
+        let key_width = (0.5 * frame.size.x).min(1.8 * frame.size.y);
+        self.draw_key(area, Rect { size: Vector::new(key_width, frame.size.y), ..frame }, mechanism, theme);
+        let after_key = Vector::new(key_width + theme.note_size, 0.0);
+        let beside = Rect { corner: frame.corner + after_key, size: frame.size - after_key };
+        description.draw(area, beside, page, key.as_ref(), theme);
     }
 
     fn draw_key(&self, area: &impl Area, frame: Rect, mechanism: &PosedMechanism, theme: &Theme) {

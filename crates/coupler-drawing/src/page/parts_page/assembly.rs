@@ -3,7 +3,8 @@
 use super::super::Key;
 use super::super::area::Area;
 use super::super::figure::Figure;
-use super::super::key_drawing::{self, needs_numbers};
+use super::super::key::PinMarks;
+use super::super::key_drawing::{self, needs_marks};
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 
@@ -16,14 +17,15 @@ pub(super) struct Assembly<'a> {
 impl Assembly<'_> {
     /// The names of the joints after their numbers, if a drawing of a width has only these.
     pub fn numbered_names(&self, width: f64, theme: &Theme) -> Option<String> {
-        let key = self.key.filter(|key| needs_numbers(key, width, theme))?;
+        let key = self.key.filter(|key| needs_marks(key, width, theme))?;
         let names = key.joints.iter().enumerate().map(|(k, (name, _))| format!("{} {name}", k + 1));
         Some(names.collect::<Vec<_>>().join(" · "))
     }
 
     pub fn draw(&self, root: &impl Area, rect: Rect, theme: &Theme) {
         if let (Some(mechanism), Some(key)) = (self.figure.mechanisms.first(), self.key) {
-            let key = Key { is_numbered: needs_numbers(key, rect.size.x, theme), ..key.clone() };
+            let marks = if needs_marks(key, rect.size.x, theme) { PinMarks::Numbers } else { PinMarks::Names };
+            let key = Key { marks, ..key.clone() };
             let ink = |joint| self.figure.joint_ink(joint, theme);
             key_drawing::draw_linkage(root, rect, (mechanism, &key), self.figure.first_circuit(), ink, theme);
         }

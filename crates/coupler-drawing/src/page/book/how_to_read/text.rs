@@ -65,7 +65,7 @@ fn paragraphs(how: &HowToRead, shown: &[(&Part, Point)], find: &[String]) -> Vec
         ));
         if !how.curve_name.is_empty() {
             said.push(Paragraph::plain(format!(
-                "Every curve has a name, such as {} on the plate on the left: its family, the number of the linkage in the table \
+                "Every curve has a name, such as {} on the plate that is explained here: its family, the number of the linkage in the table \
                  cells.csv next to this book, its point and its circuit. With it, the program that made this book writes drawings for CAD, \
                  tables and the linkage itself: coupler-atlas export.",
                 how.curve_name
