@@ -32,11 +32,18 @@ pub(super) fn shared_labels(
             || runs_along(&drawn[a], &drawn[b]) && runs_along(&drawn[b], &drawn[a])
     };
     let coincide = |a: usize, b: usize| match source {
-        // Each point is a linkage, which has a mark.
-        PointSource::Curves => has_same_points(&at_points[a], &at_points[b], ROUNDING) && are_drawn_as_one(a, b),
+        // Each point is a linkage, which has a mark. Lines without any may be there between linkages.
+        PointSource::Curves => {
+            has_same_points(&at_points[a], &at_points[b], ROUNDING)
+                && (at_points[a].iter().any(Option::is_some) || are_drawn_as_one(a, b))
+        }
         PointSource::Samples => are_drawn_as_one(a, b),
     };
-    let is_empty = |k: usize| at_points[k].iter().chain(&drawn[k]).all(Option::is_none);
+    // What an axis cannot show is left out, but said.
+    let is_empty = |k: usize| {
+        let line = &series[k];
+        line.points(quantity_index).chain(line.path(quantity_index)).all(|[_, y]| y.is_nan())
+    };
     let all_empty = (0..series.len()).all(is_empty);
     let mut groups: Vec<Vec<usize>> = Vec::new();
     // A line without values has no label, unless there is none with any.
