@@ -183,7 +183,7 @@ fn a_single_plate_is_a_single_page_and_a_book_may_have_its_plates_only() {
 fn drawings_state_the_whole_paper_and_are_no_plates_that_are_explained() {
     let manifest = |others: &str| {
         format!(
-            "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\npaper = {{ width = \"148 mm\", height = \"105 mm\" }}\n\
+            "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\npaper = {{ width = \"150 mm\", height = \"105 mm\" }}\n\
              [book]\nbinding = \"12 mm\"\n[[family]]\nid = \"d\"\nlinkage = \"slider-crank\"\nlayout = \"drawing\"\n\
              sampling = {{ samples = 24 }}\ncases = [{{}}]\n{others}"
         )
@@ -201,6 +201,6 @@ fn drawings_state_the_whole_paper_and_are_no_plates_that_are_explained() {
             .iter()
             .filter(|word| word.contains(" mm") && word.starts_with(|c: char| c.is_ascii_digit()) && word.contains('×'))
             .collect();
-        assert_eq!(papers, ["148 × 105 mm"]);
+        assert_eq!(papers, ["150 × 105 mm"]);
     }
 }

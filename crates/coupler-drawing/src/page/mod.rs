@@ -17,6 +17,7 @@ mod chart_grid;
 mod coupler_grid;
 mod direction;
 mod element;
+mod empty_scene;
 mod extents;
 mod figure;
 mod guided_body;
@@ -65,6 +66,7 @@ use crate::scene::Scene;
 use coupler_curves::geometry::Point;
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::SolvedCell;
+use empty_scene::empty_scene;
 use marks::PAGE_MEASURES;
 
 impl Layout {
@@ -127,7 +129,7 @@ pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
 /// Composes a page of panels.
 pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&page.heading, options, &theme);
+    let mut scene = empty_scene(page.heading.page_title(), options, &theme);
     let root = area::whole_page(&mut scene);
     let fitting_scale = match page.layout {
         Layout::Drawing => parts_page::compose(&root, page, options, &theme),
@@ -140,13 +142,7 @@ pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
 /// Composes a page of a coupler grid.
 pub fn compose_coupler_grid(page: &CouplerGridPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&page.heading, options, &theme);
+    let mut scene = empty_scene(page.heading.page_title(), options, &theme);
     let fitting_scale = coupler_grid::compose(&mut scene, page, options, &theme);
     Scene { reduced_scale: page.scale.reduced(fitting_scale), ..scene }
-}
-
-fn empty_scene(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
-    let Paper { width, height } = options.paper;
-    let (paper, typeface, title) = (theme.paper, theme.typeface, heading.page_title());
-    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), reduced_scale: None }
 }

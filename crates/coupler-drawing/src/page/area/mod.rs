@@ -44,8 +44,9 @@ pub(super) trait Area: Sized {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::page::empty_scene::empty_scene;
     use crate::page::{Heading, Key, Layout, NamedTheme, Options, Panel, PanelPage, Paper, Theme};
-    use crate::page::{compose_panels, empty_scene, panels};
+    use crate::page::{compose_panels, panels};
     use crate::plate;
     use crate::scene::{Color, Scene};
     use coupler_curves::FourBar;
@@ -70,7 +71,7 @@ mod tests {
 
     fn compose_without_plotters(page: &PanelPage, options: &Options) -> Scene {
         let theme = options.theme.for_paper(options.paper);
-        let mut scene = empty_scene(&page.heading, options, &theme);
+        let mut scene = empty_scene(page.heading.page_title(), options, &theme);
         panels::compose(&scene_area::whole_page(&mut scene), page, options, &theme);
         scene
     }
@@ -147,7 +148,7 @@ mod tests {
                 ([1.0 + part, 2.345, 10.0 - part / 3.0, part], [1 + k as usize % 13, 1 + k as usize % 7]);
             let draw = |with_plotters: bool| {
                 let options = Options::for_paper(paper);
-                let mut scene = empty_scene(&Heading::new("grid"), &options, &options.theme);
+                let mut scene = empty_scene("grid".to_owned(), &options, &options.theme);
                 if with_plotters {
                     draw_grid(&plotters_area::whole_page(&mut scene), margins, grid);
                 } else {

@@ -3,10 +3,10 @@
 use super::super::Options;
 use super::super::area::{self, Area};
 use super::super::element::{Drawing, TextLine};
+use super::super::empty_scene::empty_scene;
 use super::super::heading;
 use super::super::theme::Theme;
 use super::atlas::{Atlas, Volume};
-use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene};
 use coupler_curves::geometry::{Point, Vector};
 

@@ -3,12 +3,12 @@
 use super::super::area::{self, Area};
 use super::super::caption_form::CaptionForm;
 use super::super::element::Drawing;
+use super::super::empty_scene::empty_scene;
 use super::super::plot::round_number_below;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, FindingCell, FindingChart, FindingCurve, ScaleBar};
-use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Polyline, Scene, Stroke, Text};
 use coupler_curves::geometry::{Point, Vector};
 

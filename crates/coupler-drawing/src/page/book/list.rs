@@ -2,11 +2,11 @@
 
 use super::super::area::{self, Area};
 use super::super::element::{Drawing, TextLine};
+use super::super::empty_scene::empty_scene;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, CurveList, ListEntry};
-use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 

@@ -11,7 +11,6 @@ mod atlas;
 mod code;
 mod columns;
 mod contents;
-mod empty_scene;
 mod finding;
 mod folio;
 #[cfg(feature = "pdf")]
@@ -37,11 +36,11 @@ pub use index::keep_listed;
 pub use index_entry::IndexEntry;
 pub use miniature::{Emphasis, Miniature};
 
+use super::empty_scene::empty_scene;
 use super::{Options, PanelPage};
 use crate::scene::{LinkKind, OutlineEntry, PageNumber, Scene};
 use atlas::{BackMatter, CHARTS_TITLE, charts_in};
 use columns::{ListHeader, Places};
-use empty_scene::empty_scene;
 
 /// The title of the index.
 const INDEX_TITLE: &str = "Index of geometries";

@@ -10,12 +10,13 @@ mod number;
 mod scale;
 
 use super::area::{self, Area, PlottersArea};
+use super::empty_scene::empty_scene;
 use super::figure::Figure;
 use super::heading::margins;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{ChartPage, Options, chart_grid, empty_scene};
+use super::{ChartPage, Options, chart_grid};
 use super::{key_division, key_drawing};
 use crate::chart::PointSource;
 use crate::scene::{Group, Scene};
@@ -25,7 +26,7 @@ use figure::{ChartFigure, LineFeatures};
 /// Composes a page of charts.
 pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
-    let mut scene = empty_scene(&page.heading, options, &theme);
+    let mut scene = empty_scene(page.heading.page_title(), options, &theme);
     draw_charts(&mut scene, page, options, &theme);
     scene
 }

@@ -12,12 +12,13 @@ mod title_block;
 
 use super::area::{Area, whole_page};
 use super::element::Drawing;
+use super::empty_scene::empty_scene;
 use super::figure::Figure;
 use super::heading::margins;
 use super::panels::draw_not_assembled;
 use super::rect::Rect;
 use super::theme::Theme;
-use super::{Options, Panel, PanelPage, PanelScale, Paper, empty_scene, usual_scale_below};
+use super::{Options, Panel, PanelPage, PanelScale, Paper, usual_scale_below};
 use crate::scene::Anchor;
 use assembly::Assembly;
 use coupler_curves::geometry::{Point, Vector};
@@ -131,7 +132,7 @@ impl Contents<'_> {
         let fits = |paper: &Paper| {
             let options = self.options.clone().with_paper(*paper);
             let theme = options.theme.for_paper(*paper);
-            let mut scene = empty_scene(&self.page.heading, &options, &theme);
+            let mut scene = empty_scene(self.page.heading.page_title(), &options, &theme);
             let contents = self.draw_heading(&whole_page(&mut scene), &theme);
             self.sheet(contents, &theme).is_some_and(|(_, fitting)| fitting == self.everything())
         };

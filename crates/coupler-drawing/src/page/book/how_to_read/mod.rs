@@ -7,11 +7,11 @@ pub(super) use parts::TITLE;
 
 use super::super::area::{self, Area};
 use super::super::element::Drawing;
+use super::super::empty_scene::empty_scene;
 use super::super::heading;
 use super::super::theme::Theme;
 use super::super::{Layout, Options};
 use super::atlas::{Atlas, HowToRead};
-use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Circle, Color, Curve, Group, Item, Path, Polyline, Scene, Stroke, Text};
 use coupler_curves::geometry::{Point, Vector};
 use parts::{LARGEST_TEXT, PARTS, Part};

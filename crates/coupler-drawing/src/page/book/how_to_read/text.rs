@@ -2,11 +2,11 @@
 
 use super::super::super::area::{self, Area};
 use super::super::super::element::TextLine;
+use super::super::super::empty_scene::empty_scene;
 use super::super::super::heading;
 use super::super::super::theme::Theme;
 use super::super::super::{Layout, Options};
 use super::super::atlas::{Atlas, HowToRead};
-use super::super::empty_scene::empty_scene;
 use super::parts::{Part, TITLE};
 use crate::scene::{Anchor, MIN_TEXT_SIZE, Scene};
 use coupler_curves::geometry::{Point, Vector};

@@ -1,7 +1,7 @@
-//! A page of a book before anything is drawn on it.
+//! A page before anything is drawn on it.
 
-use super::super::theme::Theme;
-use super::super::{Options, Paper};
+use super::theme::Theme;
+use super::{Options, Paper};
 use crate::scene::Scene;
 
 pub(super) fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
