@@ -37,12 +37,18 @@ impl PanelTexts {
         let most_text = (1.0 - MIN_FIGURE) * size.y;
         let facts = FactsLayout::for_page(page, figures, width, theme);
         let texts = |form: CaptionForm, facts: FactsLayout, has_notes: bool| {
-            let theme = with_equal_captions(page, form, width, theme);
-            let lines = |(panel, figure): (&Panel, &Option<Figure>)| {
+            let said = |(panel, figure): (&Panel, &Option<Figure>)| {
                 let pose = figure.as_ref().and_then(Figure::pose_input);
-                panel_lines(panel, form, (facts, pose, has_notes), width, page.heading.symbols, &theme)
+                Said::of_panel(panel, form, (facts, pose, has_notes))
             };
-            let lines: Vec<Vec<TextLine>> = page.panels.iter().zip(figures).map(lines).collect();
+            let said: Vec<Said> = page.panels.iter().zip(figures).map(said).collect();
+            let captions = said.iter().map(|said| said.caption.as_str());
+            let caption_size = equal_size(captions, theme.caption_size, width, theme);
+            let notes = said.iter().flat_map(|said| said.notes.iter().chain(&said.error)).map(String::as_str);
+            let note_size = equal_size(notes, theme.note_size, width, theme);
+            let lines = |said: &Said| said.lines([caption_size, note_size], width, page.heading.symbols, theme);
+            let lines: Vec<Vec<TextLine>> = said.iter().map(lines).collect();
+            let theme = Theme { caption_size, ..theme.clone() };
             let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
             let foot = lines.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
             let has_facts = facts != FactsLayout::None;
@@ -60,24 +66,12 @@ impl PanelTexts {
     }
 }
 
-/// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
-fn with_equal_captions(page: &PanelPage, form: CaptionForm, width: f64, theme: &Theme) -> Theme {
-    let natural = |panel: &Panel| {
-        theme
-            .text_line(
-                &form.text(&panel.caption, &panel.varying),
-                Point::origin(),
-                Anchor::Middle,
-                theme.caption_size,
-                theme.ink,
-            )
-            .text
-            .width()
-    };
-    let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
-    let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
-    let part = if part >= TextLine::min_part(theme.caption_size) { part } else { 1.0 };
-    Theme { caption_size: part * theme.caption_size, ..theme.clone() }
+/// The size of some texts of a page, all in one: that at which each is on one line which is so at a size that is not much smaller.
+fn equal_size<'a>(texts: impl Iterator<Item = &'a str>, size: f64, width: f64, theme: &Theme) -> f64 {
+    let least = TextLine::min_part(size);
+    let natural = |text| theme.text_line(text, Point::origin(), Anchor::Middle, size, theme.ink).text.width();
+    let parts = texts.map(|text| width / natural(text)).filter(|part| *part >= least);
+    size * parts.fold(1.0, f64::min)
 }
 
 /// The distance from a line of text to the next.
@@ -85,31 +79,48 @@ fn leading(line: &TextLine) -> f64 {
     1.45 * line.text.size
 }
 
-/// The lines under a figure: caption, note, facts, and why the linkage cannot move through the whole range.
-fn panel_lines(
-    panel: &Panel,
-    form: CaptionForm,
-    (facts, pose, has_note): (FactsLayout, Option<String>, bool),
-    width: f64,
-    symbols: &[String],
-    theme: &Theme,
-) -> Vec<TextLine> {
-    let mut lines: Vec<TextLine> = Vec::new();
-    let mut add = |text: &str, size: f64, color: Color, symbols: &[String]| {
-        let line = theme.text_line(text, Point::origin(), Anchor::Middle, size, color);
-        let wrapped = line.fit_or_wrap(width).into_iter().filter(|line| line.text.width() > 0.0);
-        lines.extend(wrapped.map(|line| line.with_italics(symbols)));
-    };
-    add(&form.text(&panel.caption, &panel.varying), theme.caption_size, theme.ink, symbols);
-    if has_note {
-        add(&panel.note, theme.note_size, theme.grey, symbols);
+/// What is said under a figure.
+struct Said {
+    caption: String,
+    /// The note, and the facts.
+    notes: Vec<String>,
+    /// Why the linkage cannot move through the whole range.
+    error: Option<String>,
+}
+
+impl Said {
+    fn of_panel(
+        panel: &Panel,
+        form: CaptionForm,
+        (facts, pose, has_note): (FactsLayout, Option<String>, bool),
+    ) -> Said {
+        let note = if has_note { panel.note.clone() } else { String::new() };
+        let motion = &panel.solved_cell.motion;
+        Said {
+            caption: form.text(&panel.caption, &panel.varying),
+            notes: std::iter::once(note).chain(facts.panel_lines(panel, pose)).collect(),
+            error: motion.assembly_error.as_ref().filter(|_| motion.is_assembled()).map(ToString::to_string),
+        }
     }
-    facts.panel_lines(panel, pose).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
-    let motion = &panel.solved_cell.motion;
-    if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
-        add(&error.to_string(), theme.note_size, theme.text_ink(theme.curve_ink(0)), &[]);
+
+    /// Its lines, with the caption and the others in sizes that are those of the page: a text that is wider is broken.
+    fn lines(&self, [caption, note]: [f64; 2], width: f64, symbols: &[String], theme: &Theme) -> Vec<TextLine> {
+        let lines = |text: &str, size: f64, color: Color, symbols: &[String]| -> Vec<TextLine> {
+            let line = |words: &str| theme.text_line(words, Point::origin(), Anchor::Middle, size, color);
+            let wrapped = match line(text) {
+                // The size may have been computed from this very text.
+                whole if whole.text.width() <= width * (1.0 + 1e-9) => vec![text.to_owned()],
+                whole => whole.wrap_at_separators(width),
+            };
+            let lines = wrapped.iter().map(|words| line(words).fit_width(width)).filter(|line| line.text.width() > 0.0);
+            lines.map(|line| line.with_italics(symbols)).collect()
+        };
+        let [first, others] = [&self.notes[..1], &self.notes[1..]];
+        let error = self.error.iter().flat_map(|error| lines(error, note, theme.text_ink(theme.curve_ink(0)), &[]));
+        let caption = lines(&self.caption, caption, theme.ink, symbols).into_iter();
+        let caption = caption.chain(first.iter().flat_map(|text| lines(text, note, theme.grey, symbols)));
+        caption.chain(others.iter().flat_map(|text| lines(text, note, theme.grey, &[]))).chain(error).collect()
     }
-    lines
 }
 
 /// The number of lines for the facts of a cell, the same for all cells of a page.

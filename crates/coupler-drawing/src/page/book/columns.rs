@@ -198,7 +198,9 @@ pub(super) fn compose_list(
         let root = area::whole_page(&mut scene);
         heading::draw_border(&root, theme);
         let at = heading::draw_title(&root, header.title, theme);
-        for (k, line) in header.lines(root.size().x - 2.0 * at.x, theme).into_iter().enumerate() {
+        let continued = placed.first().and_then(|first| continued_heading(rows, first.row));
+        let lines = header.lines(continued, root.size().x - 2.0 * at.x, theme);
+        for (k, line) in lines.into_iter().enumerate() {
             root.record(line.moved_to(at + Vector::new(0.0, heading::SOURCE_LEADING * theme.source_size * k as f64)));
         }
         columns.draw_heads(&root, header, theme);
@@ -211,17 +213,26 @@ pub(super) fn compose_list(
     pages.iter().map(page).collect()
 }
 
+/// The text of the heading that a row is under, if another row is between them.
+fn continued_heading<'r>(rows: &'r [Row], row: &Row) -> Option<&'r str> {
+    let at = rows.iter().position(|other| std::ptr::eq(other, row))?;
+    let heading = |row: &'r Row| if let Row::Heading { text, .. } = row { Some(text.as_str()) } else { None };
+    if heading(&rows[at]).is_some() { None } else { rows[..at].iter().rev().find_map(heading) }
+}
+
 /// The distance of the values of an entry, in ems.
 const GAP: f64 = 1.0;
 
 impl ListHeader<'_> {
-    /// The lines under the title.
-    fn lines(&self, width: f64, theme: &Theme) -> Vec<TextLine> {
+    /// The lines under the title, of a page whose rows are under a heading of an earlier one with its text: in place of the title of the
+    /// atlas, so that they are as many on all pages.
+    fn lines(&self, continued: Option<&str>, width: f64, theme: &Theme) -> Vec<TextLine> {
         let title = self.atlas.title;
-        let said = match (self.note, self.volume.name()) {
-            ("", Some(name)) => format!("{title} · {name}"),
-            ("", None) => title.to_owned(),
-            (note, _) => note.to_owned(),
+        let said = match (self.note, self.volume.name(), continued) {
+            ("", _, Some(heading)) => format!("{heading}, continued"),
+            ("", Some(name), None) => format!("{title} · {name}"),
+            ("", None, None) => title.to_owned(),
+            (note, ..) => note.to_owned(),
         };
         let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, theme.source_size, theme.grey);
         line(&said).wrap(width).iter().map(|words| line(words).fit_width(width)).collect()
@@ -255,7 +266,7 @@ impl ColumnLayout {
     /// As many columns as the widest entry allows, up to eight.
     fn fit(rows: &[Row], header: &ListHeader, options: &Options, theme: &Theme) -> ColumnLayout {
         let [_, bottom, left] = heading::margins(theme);
-        let lines = header.lines(options.paper.width - 2.0 * left, theme).len();
+        let lines = header.lines(None, options.paper.width - 2.0 * left, theme).len();
         let heads = if header.heads.is_empty() { 0.0 } else { 1.5 * theme.note_size };
         let top = heading::contents_top(header.title, lines, options.paper, theme) + heads;
         let whole = Vector::new(options.paper.width - 2.0 * left, options.paper.height - top - bottom);
