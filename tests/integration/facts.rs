@@ -1,5 +1,6 @@
 //! What pages state of motions is true of them.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use crate::support::command::{folder_with, printed, run};
@@ -71,6 +72,22 @@ fn captions_that_are_cut_end_in_an_ellipsis() {
          cases = [{ crank = 10, coupler = 40 }]\ncaption = \"a caption of so many words that a panel as small as this one has no room for them all\"",
     );
     assert!(svg.contains(" …</text>"), "{svg}");
+}
+
+/// The texts under the figures of a page have one size for captions, and one for what else is said, also where one of them is broken.
+#[test]
+fn texts_under_figures_have_one_size_each() {
+    let [svg, _] = rendered(
+        "[[family]]\nid = \"f\"\nlinkage = \"evans\"\npanels = [5, 2]\nlet = { a = \"(1 + p)^1.5 / 2\" }\n\
+         grid = { p = [2, 3, 4, 5, 6], k = [2, 2.5] }\nnote = \"{p:.2} and {p^7:.6} with words {p^9:.9}\"\n",
+    );
+    let sizes = |word: &str| -> BTreeSet<&str> {
+        let texts = svg.split("<text ").skip(1).filter(|text| text.split("</text>").next().unwrap().contains(word));
+        texts.map(|text| text.split("font-size=\"").nth(1).unwrap().split('"').next().unwrap()).collect()
+    };
+    let [notes, facts, poses] = ["with words", "crank-rocker", "drawn at"].map(sizes);
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    assert_eq!((&notes, &notes), (&facts, &poses));
 }
 
 #[test]

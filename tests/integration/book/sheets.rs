@@ -180,6 +180,25 @@ fn a_single_plate_is_a_single_page_and_a_book_may_have_its_plates_only() {
 }
 
 #[test]
+fn pages_of_an_index_say_what_they_continue() {
+    let atlas = Atlas::rendered(
+        "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\npaper = \"a6\"\n[book]\n[[family]]\nid = \"f\"\n\
+         linkage = \"evans\"\nsampling = { samples = 24 }\ngrid = { p = { from = 2, to = 6, count = 60 } }\nlet = { a = \"(1 + p)^1.5 / 2\" }\n",
+        &[],
+    );
+    let pdf = Pdf::read(&std::fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let pages = (0..pdf.pages().len())
+        .map(|page| -> Vec<String> { pdf.contents(page).texts.into_iter().map(|(words, ..)| words).collect() });
+    let of_index: Vec<Vec<String>> = pages.filter(|words| words.contains(&"Index of geometries".to_owned())).collect();
+    assert!(of_index.len() > 3, "{}", of_index.len());
+    let begins =
+        |words: &Vec<String>| words.iter().any(|text| text.starts_with("By ") && text.ends_with(", continued"));
+    let continued = of_index.iter().filter(|words| begins(words)).count();
+    // The first page has the heading itself.
+    assert!(!begins(&of_index[0]) && continued >= of_index.len() - 3, "{continued} of {}", of_index.len());
+}
+
+#[test]
 fn drawings_state_the_whole_paper_and_are_no_plates_that_are_explained() {
     let manifest = |others: &str| {
         format!(
