@@ -66,12 +66,12 @@ impl PanelTexts {
     }
 }
 
-/// The size of some texts of a page, all in one: that at which each is on one line which is so at a size that is not much smaller.
+/// The size of some texts of a page, all in one: that at which each is on one line, or if one is much too wide for that, the least size
+/// before lines are broken, at which it takes the fewest lines.
 fn equal_size<'a>(texts: impl Iterator<Item = &'a str>, size: f64, width: f64, theme: &Theme) -> f64 {
-    let least = TextLine::min_part(size);
     let natural = |text| theme.text_line(text, Point::origin(), Anchor::Middle, size, theme.ink).text.width();
-    let parts = texts.map(|text| width / natural(text)).filter(|part| *part >= least);
-    size * parts.fold(1.0, f64::min)
+    let part = texts.map(|text| width / natural(text)).fold(1.0, f64::min);
+    size * part.max(TextLine::min_part(size))
 }
 
 /// The distance from a line of text to the next.
