@@ -39,7 +39,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::Inputs;
 use crate::record::RunRecord;
 use crate::sweep::{self, Division};
 use coupler_curves::problem::Problem;
@@ -106,14 +105,7 @@ pub fn write_atlas(
     let journals: Vec<PathBuf> = shards.iter().map(|shard| shard.path.clone()).collect();
     shards.into_iter().for_each(|shard| previous.add_pages(shard.record.run));
     ownership::check_owner(plan, output, options, &previous)?;
-    let is_changed = |planned: &&PlannedFamily| {
-        let recorded = previous.families.iter().find(|record| record.id == planned.family.id);
-        options.force || recorded.and_then(|record| record.inputs_sha256) != Some(Inputs::new(planned).family_digest())
-    };
-    let changed = plan.families.iter().filter(|planned| options.includes(planned)).filter(is_changed);
-    let checked = ownership::check_files(plan, output, options, &previous)
-        .and_then(|()| scale::check(plan, changed.map(|planned| (planned, Division::WHOLE)), options));
-    if let Err(error) = checked {
+    if let Err(error) = ownership::check_files(plan, output, options, &previous) {
         if is_recovered {
             // What is known is recorded, so that the next run needs no repair.
             Journal::open(plan, output, options, previous).close()?;

@@ -127,13 +127,16 @@ pub fn write_page_shard(
             return Err(Error::ForeignFile { first: folder, others: 0 });
         }
     }
-    scale::check(plan, plan.families.iter().enumerate().map(|(k, planned)| (planned, division.shifted(k))), options)?;
     let journal = JournalFile::begin(path, initial_entries((plan, source.text), options, head, own))?;
     let (mut pages, mut drawn) = (0, 0);
     for (k, planned) in plan.families.iter().enumerate() {
         check_interrupt(&options.interrupt)?;
         let shard = FamilyPages { plan, planned, output, options, journal: &journal };
         let result = shard.draw(division.shifted(k), &previous, report);
+        if let Err(Error::Misfits(_)) = &result {
+            let parts = plan.families.iter().enumerate().map(|(k, planned)| (planned, division.shifted(k)));
+            scale::explain(plan, parts, options)?;
+        }
         let (of_family, drawn_of_family) = result?;
         pages += of_family;
         drawn += drawn_of_family;

@@ -22,29 +22,19 @@ pub(super) fn explain<'p>(
     families: impl Iterator<Item = (&'p PlannedFamily, Division)>,
     options: &RunOptions,
 ) -> Result<(), Error> {
-    check(plan, families, options)?;
-    let given = plan.families.iter().find(|planned| planned.scale.fixed().is_some());
-    let span = given.and_then(|planned| planned.scale_span.clone()).unwrap_or_default();
-    let problem = Problem::error(span, "linkages do not fit the pages of the book at this scale");
-    Err(Error::Misfits(vec![problem.with_help("give a smaller scale, a larger paper, or a narrower binding")]))
-}
-
-/// Finds out whether the linkages of some families fit their pages at the scales that are given, before any is written.
-///
-/// # Errors
-/// The problems of those that do not; the run is interrupted.
-pub(super) fn check<'p>(
-    plan: &Plan,
-    families: impl Iterator<Item = (&'p PlannedFamily, Division)>,
-    options: &RunOptions,
-) -> Result<(), Error> {
     let problem = |(planned, part): (&PlannedFamily, Division)| {
         let formats = options.formats.as_deref().unwrap_or(&planned.formats);
         scale_problem(plan, planned, (formats, part), &options.interrupt)
     };
     let misfits: Vec<Problem> =
         families.map(problem).collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect();
-    if misfits.is_empty() { Ok(()) } else { Err(Error::Misfits(misfits)) }
+    if !misfits.is_empty() {
+        return Err(Error::Misfits(misfits));
+    }
+    let given = plan.families.iter().find(|planned| planned.scale.fixed().is_some());
+    let span = given.and_then(|planned| planned.scale_span.clone()).unwrap_or_default();
+    let problem = Problem::error(span, "linkages do not fit the pages of the book at this scale");
+    Err(Error::Misfits(vec![problem.with_help("give a smaller scale, a larger paper, or a narrower binding")]))
 }
 
 /// The problem of a family with a given scale at which linkages on some of its pages, or of those of the book, do not fit, in the formats that it has.
