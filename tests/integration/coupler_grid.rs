@@ -17,6 +17,7 @@ use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Str
 
 use crate::support::folder::Atlas;
 use crate::support::plan::{plan, problems};
+use crate::support::texts::texts as svg_texts;
 
 /// A crank-rocker, a change point and a case that cannot be assembled, with twelve points.
 const GOOD: &str = r#"[atlas]
@@ -760,12 +761,7 @@ fn change_points_are_a_chapter_after_the_others_in_a_book() {
 
 /// The texts of a page of a manifest that is rendered as SVG, in its order.
 fn page_texts(manifest: &str, page: &str) -> Vec<String> {
-    let svg = Atlas::rendered(manifest, &["-q", "--format", "svg", "-o", "out"]).read(page);
-    let content = |element: &str| -> String {
-        let content = element.split_once('>').unwrap().1.split("</text>").next().unwrap();
-        content.split('<').map(|part| part.rsplit('>').next().unwrap()).collect()
-    };
-    svg.split("<text ").skip(1).map(content).collect()
+    svg_texts(&Atlas::rendered(manifest, &["-q", "--format", "svg", "-o", "out"]).read(page))
 }
 
 #[test]

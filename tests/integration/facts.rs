@@ -5,6 +5,7 @@ use std::fs;
 
 use crate::support::command::{folder_with, printed, run};
 use crate::support::table::{numbers, rows};
+use crate::support::texts::texts;
 
 /// The page of a family as SVG, and its table of cells.
 fn rendered(family: &str) -> [String; 2] {
@@ -153,13 +154,6 @@ fn a_measure_in_the_caption_of_a_linkage_belongs_to_its_family() {
     assert!(error.contains("help: `straight_length` is a measure: write it in the caption of a [[family]]"), "{error}");
 }
 
-/// The words of a page, in one line.
-fn words(svg: &str) -> String {
-    let texts = svg.split("<text").skip(1).map(|text| text.split("</text>").next().unwrap());
-    let words = texts.map(|text| text.split('<').map(|part| part.rsplit('>').next().unwrap()).collect::<String>());
-    words.collect::<Vec<_>>().join(" ")
-}
-
 /// The foot of a line through the pivot is no other point that the output could be measured to.
 #[test]
 fn the_output_of_a_bar_is_named_by_what_slides_through_it() {
@@ -167,7 +161,7 @@ fn the_output_of_a_bar_is_named_by_what_slides_through_it() {
         let [svg, _] = rendered(&format!(
             "[[family]]\nid = \"f\"\nlinkage = \"inverted-slider-crank\"\ncases = [{{ g = 2, r = 1, e = {e} }}]\n"
         ));
-        let words = words(&svg);
+        let words = texts(&svg).join(" ");
         assert!(words.contains("output: the link from C that slides through A"), "{e}: {words}");
     }
 }
@@ -181,7 +175,7 @@ fn racks_say_on_which_side_they_meet_their_pinion() {
              input = {{ from = \"-90 deg\", to = \"90 deg\" }}\n[linkage.joints]\nO = {{ fixed = [0, 0] }}\nX = {{ fixed = [50, 0] }}\n\
              A = {{ crank = \"O\", length = 20 }}\nR = {{ rack = \"A\", radius = {radius}, line = [\"O\", \"X\"], offset = 10, start = 5 }}\n"
         ));
-        let words = words(&svg);
+        let words = texts(&svg).join(" ");
         assert!(words.contains(&format!("{side} of O")), "{radius} {place}: {words}");
     }
 }

@@ -11,6 +11,7 @@ use coupler_drawing::page::{Layout, PanelScale};
 
 use crate::support::command::{folder_with, printed};
 use crate::support::plan::plan;
+use crate::support::texts::texts;
 
 /// A manifest of one family without errors.
 fn family(text: &str) -> String {
@@ -39,27 +40,6 @@ fn pages<'p>(text: &str, plan: &'p Plan) -> Vec<Page<'p>> {
     };
     let of_panels = plan.families.iter().filter(|planned| matches!(planned.layout, Layout::Panels { .. }));
     of_panels.flat_map(of_family).collect()
-}
-
-/// The lines of text of a page, without markup.
-fn texts(svg: &str) -> Vec<String> {
-    let mut lines = Vec::new();
-    for element in svg.split("<text ").skip(1) {
-        let element = element.split("</text>").next().unwrap();
-        let content = element.split_once('>').unwrap().1;
-        let mut text = String::new();
-        let mut is_markup = false;
-        for c in content.chars() {
-            match c {
-                '<' => is_markup = true,
-                '>' => is_markup = false,
-                c if !is_markup => text.push(c),
-                _ => {}
-            }
-        }
-        lines.push(text);
-    }
-    lines
 }
 
 /// The last word of a name as it is printed, with spaces in place of underscores.

@@ -1,10 +1,11 @@
-//! What tests of several topics share: the program, folders and atlases, manifests, and tables.
+//! What tests of several topics share: the program, folders and atlases, manifests, tables, and the texts of pages.
 
 pub mod command;
 pub mod curve_rows;
 pub mod folder;
 pub mod plan;
 pub mod table;
+pub mod texts;
 
 /// Every other file runs the program by [`command::program`], in the same environment.
 #[test]
