@@ -10,7 +10,7 @@ use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::sweep::Division;
 use coupler_curves::problem::Problem;
 use coupler_curves::solve::SolvedCell;
-use coupler_drawing::page::{Layout, Options, PanelScale, Paper, format_scale, usual_scale_below};
+use coupler_drawing::page::{Layout, PanelScale, Paper, format_scale, usual_scale_below};
 use coupler_drawing::render::Format;
 
 /// What is wrong with the scales of families of which a page was reduced, so that everything is said in one run.
@@ -99,12 +99,11 @@ fn problem_of_pages(
         }
         smaller = usual_scale_below(0.99 * smaller, unit);
     }
-    let usual_layout = |page: &Options| Layout::for_panels(page, planned.family.cell_count());
-    let is_usual = planned.layout == usual_layout(&plan.page);
+    let is_usual = planned.layout == planned.usual_layout(&plan.page);
     for (keys, paper) in larger_papers(plan.page.paper) {
         let plan = Plan { page: plan.page.clone().with_paper(paper), ..plan.clone() };
         // Where the manifest leaves `panels` to the paper, another paper has others.
-        let usual = is_usual.then(|| PlannedFamily { layout: usual_layout(&plan.page), ..planned.clone() });
+        let usual = is_usual.then(|| PlannedFamily { layout: planned.usual_layout(&plan.page), ..planned.clone() });
         if fits(&plan, planned)? && usual.map_or(Ok(true), |planned| fits(&plan, &planned))? {
             remedies.push(format!("{keys} in [page]"));
             break;

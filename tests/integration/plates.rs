@@ -343,6 +343,14 @@ fn small_paper_has_a_key_or_says_what_paper_it_needs() {
         |grid: &str| format!("linkage = \"evans\"\npanels = {grid}\ngrid = {{ p = [2, 2.5, 3] }}\nlet = {{ a = 2.6 }}");
     let has_key = |svg: &str| texts(svg).iter().any(|line| line == "pin of the crank, OA = r");
     let note = |svg: &str| texts(svg).into_iter().find(|line| line.starts_with("the key is left out"));
+    // As many panels as leave room to a key, where their number is left to the paper.
+    let jansen = "linkage = \"jansen\"\ngrid = { m = [13, 14, 15, 16, 17] }".to_owned();
+    let evans = "linkage = \"evans\"\ngrid = { p = [2, 2.5, 3, 3.5, 4, 5, 6] }\nlet = { a = 2.6 }".to_owned();
+    for text in [jansen, evans] {
+        let svg = page_on_paper(A6, &text);
+        let is_placed = |line: &String| line.starts_with("pin of the crank");
+        assert!(texts(&svg).iter().any(is_placed) && note(&svg).is_none(), "{:?}", texts(&svg));
+    }
     for text in [chart("[1, 1]", "\"length\""), panels("[1, 1]")] {
         let svg = page_on_paper(A6, &text);
         assert!(has_key(&svg) && note(&svg).is_none(), "{:?}", texts(&svg));

@@ -20,7 +20,7 @@ use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::problem::Problem;
 use coupler_curves::template::{Orientation, Template};
-use coupler_drawing::page::Options;
+use coupler_drawing::page::{Layout, Options};
 use coupler_drawing::render::Format;
 
 /// What families share.
@@ -102,8 +102,7 @@ pub(crate) fn read<'t>(
         }
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
-    let cells = names.as_ref().map_or(1, |names| names.space.count());
-    let layout = layout::read(&fields, page, [charts, cells], parser);
+    let layout = layout::read(&fields, page, charts, parser);
     let unit = fields.get("unit").map_or(Some(unit), |value| parser.word(value, &LengthUnit::ALL).map(Some));
     let scale = unit.and_then(|unit| layout::panel_scale(&fields, layout, unit, parser));
     let ghosts = layout::ghosts(&fields, layout, parser);
@@ -152,9 +151,8 @@ pub(crate) fn read<'t>(
     let sort = fields.get("sort").and_then(|value| value.get_ref().as_str()).map(str::to_owned);
     let (layout, chart, formats) = (layout?, chart?, formats?);
     let has_pages = matches!(purpose, Purpose::Pages);
-    cells::check_memory(&family, has_pages.then_some(layout), &fields, parser);
     let inputs = ManifestInputs::default();
-    let planned = PlannedFamily {
+    let mut planned = PlannedFamily {
         family,
         layout,
         scale: scale?,
@@ -172,6 +170,10 @@ pub(crate) fn read<'t>(
         filter_span,
         scale_span,
     };
+    if let (true, Layout::Panels { .. }, None, Some(page)) = (has_pages, planned.layout, fields.get("panels"), page) {
+        planned.layout = planned.usual_layout(page);
+    }
+    cells::check_memory(&planned.family, has_pages.then_some(planned.layout), &fields, parser);
     if has_pages {
         totals.add_page_files(&planned, &fields, parser);
     }

@@ -145,11 +145,14 @@ fn ratio<'t>(
     None
 }
 
-/// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts or cells.
+/// Stands for the panels of a family that is not known yet.
+const UNKNOWN_PANELS: Layout = Layout::Panels { columns: 1, rows: 1 };
+
+/// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts; that of panels is chosen when the family is known.
 pub(crate) fn read<'t>(
     fields: &Fields<'_, 't>,
     page: Option<&Options>,
-    [charts, cells]: [usize; 2],
+    charts: usize,
     parser: &mut TomlParser<'t>,
 ) -> Option<Layout> {
     let words = Layout::ALL.map(|(name, _)| (name, name));
@@ -178,7 +181,7 @@ pub(crate) fn read<'t>(
     let Some(value) = fields.get("panels") else {
         return match page {
             Some(page) if is_chart => Some(Layout::for_charts(page, charts)),
-            page => page.map(|page| Layout::for_panels(page, cells)),
+            page => page.map(|_| UNKNOWN_PANELS),
         };
     };
     let [columns, rows] = parser.pair(value, "[1, 2]")?;

@@ -185,6 +185,14 @@ pub struct CaseFile {
 }
 
 impl PlannedFamily {
+    /// The layout of its panels where the manifest leaves their number to the paper.
+    pub fn usual_layout(&self, page: &page::Options) -> page::Layout {
+        let key = page::Key::new(&self.family);
+        let heading =
+            page::Heading::new(&self.family.title).with_source(&*self.source).with_dimensions(&key.dimensions);
+        page::Layout::for_panels(page, self.family.cell_count(), &heading, &key)
+    }
+
     /// A manifest of this family alone, in which its names have the same order: of its parameter sets it has the first of
     /// each distinct set of names, see [`coupler_curves::family::ParameterSpace::distinct_names`]. It cannot be rendered as the family is, but
     /// says all that determines a curve whose parameters are known.

@@ -25,7 +25,8 @@ pub(super) struct ListedCell<'a> {
 pub(super) fn of_cells(cells: &[ListedCell], family: &Family) -> Vec<(CellEntry, usize)> {
     let page_of_own = |pair: &[ListedCell]| pair[0].entry.page < pair[1].entry.page;
     if cells.len() <= MAX_CELLS && cells.windows(2).all(page_of_own) {
-        return cells.iter().map(|cell| (cell.entry.clone(), cell.last_page)).collect();
+        let named = cells.iter().filter(|cell| !cell.entry.caption.is_empty());
+        return named.map(|cell| (cell.entry.clone(), cell.last_page)).collect();
     }
     let differs = |slot: &usize| cells.iter().any(|cell| cell.values.get(*slot) != cells[0].values.get(*slot));
     let varying: Vec<usize> = given_slots(&family.space).into_iter().filter(differs).collect();

@@ -264,6 +264,7 @@ fn finding_charts_and_contents_have_names_as_printed_units_and_what_varies() {
          [[family]]\nid = \"evans\"\nlinkage = \"evans\"\nsampling = { samples = 24 }\npanels = [1, 1]\n\
          cases = [{ p = 2, k = 1.5 }, { p = 3, k = 2 }, { p = 4, k = 2 }]\nlet = { a = \"(1 + p)^1.5 / 2\" }\n\
          caption = \"frame p = {p}, coupler and rocker of this linkage a = {a:.4}, the coupler point is at k = {k} times a, from there\"\n\
+         [[family]]\nid = \"alone\"\nlinkage = \"klann\"\nsampling = { samples = 24 }\ncases = [{}]\n\
          [[linkage]]\nid = \"turned\"\nparameters = { foot_along = { default = 3 }, phi = { default = 0, kind = \"angle\", unit = \"deg\" } }\n\
          trace = [\"M\"]\n[linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [\"foot_along\", 0] }\n\
          A = { crank = \"O\", length = 1 }\nB = { dyad = [\"A\", \"C\"], lengths = [3, 3], side = \"left\" }\n\
@@ -283,6 +284,8 @@ fn finding_charts_and_contents_have_names_as_printed_units_and_what_varies() {
     for label in ["footalong=3.5", "phi=10°", "phi≈28.6479°"] {
         assert!([find("Contents"), chart].iter().all(|page| said(*page).contains(label)), "{label}: {}", said(chart));
     }
+    // A family of a single cell has no dimensions that it is told by, and no entry of its own.
+    assert!(pdf.outline().iter().all(|(_, title, _)| !title.is_empty()), "{:?}", pdf.outline());
     let cases = said(chart + 1);
     assert!(cases.contains("p=2,k=1.5") && cases.contains("p=4,k=2") && !cases.contains("coupler"), "{cases}");
 }

@@ -108,30 +108,40 @@ impl<'a> Heading<'a> {
     pub(super) fn draw(&self, root: &impl Area, theme: &Theme) -> f64 {
         draw_border(root, theme);
         let page = root.size();
-        let mut at = draw_title(root, self.family_title, theme);
-        let (left, right) = (at.x, page.x - at.x);
-        let source_line = |text: &str, at| theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey);
-        // A source too long for one line is broken at separators.
-        for line in source_line(&self.source, Point::origin()).wrap_at_separators(right - left) {
-            root.record(source_line(&line, at).with_italics(self.symbols).fit_width(right - left));
-            at.y += SOURCE_LEADING * theme.source_size;
-        }
-        let dimension_line =
-            |text: &MathText, at| theme.math_line(text, at, Anchor::Start, theme.source_size, theme.ink);
-        let fits = |text: &MathText| dimension_line(text, Point::origin()).text.width() <= right - left;
-        for line in MathText::join(self.dimensions.iter().cloned(), ", ").wrap(fits) {
-            root.record(dimension_line(&line, at).fit_width(right - left));
-            at.y += SOURCE_LEADING * theme.source_size;
-        }
-        let mut foot = Point::new(right, foot_baseline(page, theme) - self.folio_height(page, theme));
+        draw_title(root, self.family_title, theme);
+        let (lines, top) = self.lines_under_title(page, theme);
+        lines.into_iter().for_each(|line| root.record(line));
+        let foot = page.x - theme.border - theme.margin;
+        let mut foot = Point::new(foot, foot_baseline(page, theme) - self.folio_height(page, theme));
         root.grouped(Group::of_class(FOLIO), || {
             for line in self.folio_lines(self.atlas_title, page, theme) {
                 root.record(line.moved_to(foot));
                 foot.y += SOURCE_LEADING * theme.source_size;
             }
         });
+        top
+    }
+
+    /// The source lines and the dimensions, and the least y of the contents below them.
+    pub(super) fn lines_under_title(&self, page: Vector, theme: &Theme) -> (Vec<TextLine>, f64) {
+        let mut at = placed_title(self.family_title, page, theme).1;
+        let width = page.x - 2.0 * at.x;
+        let source_line =
+            |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, theme.source_size, theme.grey);
+        // A source too long for one line is broken at separators.
+        let source = source_line(&self.source).wrap_at_separators(width);
+        let source = source.iter().map(|line| source_line(line).with_italics(self.symbols));
+        let dimension_line =
+            |text: &MathText| theme.math_line(text, Point::origin(), Anchor::Start, theme.source_size, theme.ink);
+        let fits = |text: &MathText| dimension_line(text).text.width() <= width;
+        let dimensions = MathText::join(self.dimensions.iter().cloned(), ", ").wrap(fits);
+        let mut lines = Vec::new();
+        for line in source.chain(dimensions.iter().map(dimension_line)) {
+            lines.push(line.moved_to(at).fit_width(width));
+            at.y += SOURCE_LEADING * theme.source_size;
+        }
         // Two thirds of the last line's leading are above the contents.
-        (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
+        (lines, (at.y - 0.6 * theme.source_size).max(margins(theme)[0]))
     }
 
     /// The lines at the foot of a page on the right: `titles`, such as that of the atlas, and the page number.
@@ -216,15 +226,21 @@ fn title_lines(title: &str, paper_width: f64, theme: &Theme) -> Vec<TextLine> {
 
 /// Draws the title of a page, in as many lines as it needs; the position at which the line under it starts.
 pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point {
+    let (lines, below) = placed_title(title, root.size(), theme);
+    root.grouped(Group::of_class(TITLE), || lines.into_iter().for_each(|line| root.record(line)));
+    below
+}
+
+/// The lines of the title of a page, and the position at which the line under it starts.
+fn placed_title(title: &str, page: Vector, theme: &Theme) -> (Vec<TextLine>, Point) {
     let mut at = Point::new(theme.border + theme.margin, theme.border + 1.9 * theme.title_size);
-    root.grouped(Group::of_class(TITLE), || {
-        for line in title_lines(title, root.size().x, theme) {
-            let size = line.text.size;
-            root.record(line.moved_to(at));
-            at.y += TITLE_LEADING * size;
-        }
-    });
-    Point::new(at.x, at.y - TITLE_LEADING * theme.title_size + 1.85 * theme.source_size)
+    let mut lines = Vec::new();
+    for line in title_lines(title, page.x, theme) {
+        let size = line.text.size;
+        lines.push(line.moved_to(at));
+        at.y += TITLE_LEADING * size;
+    }
+    (lines, Point::new(at.x, at.y - TITLE_LEADING * theme.title_size + 1.85 * theme.source_size))
 }
 
 /// The least y of the contents of a page with a title and so many lines under it.

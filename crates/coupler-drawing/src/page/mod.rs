@@ -80,9 +80,11 @@ impl Layout {
         chart_grid::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
-    /// The layout for `count` cells: as many on a page as can be read well, and each as large as the paper allows.
-    pub fn for_panels(options: &Options, count: usize) -> Layout {
-        let [columns, rows] = panels::grid_for(options.paper, &options.theme.for_paper(options.paper), count);
+    /// The layout for `count` cells whose pages have a heading and a key: as many on a page as can be read well, and each as large as the paper
+    /// allows.
+    pub fn for_panels(options: &Options, count: usize, heading: &Heading, key: &Key) -> Layout {
+        let theme = &options.theme.for_paper(options.paper);
+        let [columns, rows] = panels::grid_for(options.paper, theme, count, heading, key);
         Layout::Panels { columns, rows }
     }
 

@@ -5,7 +5,7 @@ use super::arrangement::{Arrangement, Extents};
 use super::balanced_grid::balanced_grid;
 use super::element::Drawing;
 use super::figure::{self, Figure};
-use super::heading::{contents_size, margins};
+use super::heading::{Heading, contents_size, margins};
 use super::key::Key;
 use super::key_division::{self, Beside};
 use super::key_drawing;
@@ -26,17 +26,10 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     // All panels have the dashes of the one with the greatest range of the input.
     let period = figures.iter().flatten().map(|figure| figure.dash_period(options)).fold(0.0, f64::max);
     let mut symbols = page_symbols(page, &figures, period, theme);
-    let contents = |symbols: &[Symbol]| {
-        // The scale is known after the panels are arranged; no statement of it is wider than this one.
-        let scale = symbols::scale_bar(Some(1234.0), None, page.heading.unit);
-        let above_foot = layout_symbols(root, page, symbols, scale, theme).1;
-        let [_, _, side] = margins(theme);
-        let size = Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y));
-        Rect { corner: Point::new(side, top), size }
-    };
+    let contents = |symbols: &[Symbol]| contents(root.size(), &page.heading, (top, symbols), theme);
     let beside = beside_key(page.layout.grid());
     // Whether there is room for the key is decided for all pages of a family alike, whatever symbols they have.
-    let usual = contents(&usual_symbols(page, theme)).size;
+    let usual = contents(&usual_symbols(page.key, theme)).size;
     let has_key = page.key.is_some_and(|key| key_division::has_room(usual, beside, Some(key), theme));
     if let (Some(key), false, false) = (page.key, has_key, symbols.is_empty() || options.is_specimen) {
         let meaning = key_division::left_out_note(usual, beside, key, options);
@@ -89,10 +82,19 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         key_drawing::draw(root, rect, &key, &figures, theme);
     }
     let scale = symbols::scale_bar(drawn.common_scale(), common_crank(&figures), page.heading.unit);
-    for (at, line) in layout_symbols(root, page, &symbols, scale, theme).0 {
+    for (at, line) in layout_symbols(root.size(), &page.heading, &symbols, scale, theme).0 {
         symbols::draw(root, &line, at, theme);
     }
     drawn.fitting_scale
+}
+
+/// The contents of a page with these symbols at its foot, from `top` down.
+fn contents(page: Vector, heading: &Heading, (top, symbols): (f64, &[Symbol]), theme: &Theme) -> Rect {
+    // The scale is known after the panels are arranged; no statement of it is wider than this one.
+    let scale = symbols::scale_bar(Some(1234.0), None, heading.unit);
+    let above_foot = layout_symbols(page, heading, symbols, scale, theme).1;
+    let [_, _, side] = margins(theme);
+    Rect { corner: Point::new(side, top), size: Vector::new(page.x - 2.0 * side, (above_foot - top).max(0.1 * page.y)) }
 }
 
 /// The length of a crank that all linkages of a page have.
@@ -106,20 +108,20 @@ fn common_crank(figures: &[Option<Figure>]) -> Option<f64> {
 /// The lines that explain the symbols of a page and the scale bars at its foot, with their positions; and the greatest y of the
 /// contents.
 fn layout_symbols(
-    root: &impl Area,
-    page: &PanelPage,
+    page: Vector,
+    heading: &Heading,
     symbols: &[Symbol],
     scale: Symbol,
     theme: &Theme,
 ) -> (Vec<(Point, Vec<Symbol>)>, f64) {
     // A page without figures has no symbols.
     let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();
-    symbols::at_foot(root.size(), &page.heading, &explained, theme)
+    symbols::at_foot(page, heading, &explained, theme)
 }
 
 /// The symbols that pages of panels have as a rule, with the widest texts.
-fn usual_symbols(page: &PanelPage, theme: &Theme) -> Vec<Symbol> {
-    let straight = page.key.map_or("", |key| &key.straight);
+fn usual_symbols(key: Option<&Key>, theme: &Theme) -> Vec<Symbol> {
+    let straight = key.map_or("", |key| &key.straight);
     let meanings = [
         (Mark::CrankPivot, "crank's pivot"),
         (Mark::Pivot, "fixed pivot"),
@@ -272,17 +274,22 @@ fn draw_panels<A: Area>(
     DrawnPanels { scale, fitting_scale, has_enlarged, has_places_beyond }
 }
 
-/// The most columns and rows of panels on a page: at its smallest, a panel has four lines of text under a figure five
-/// lines high.
+/// The least width and height of a panel, in ems of the smallest caption: four lines of text under a figure five lines high.
+const LEAST_PANEL: [f64; 2] = [5.0, 10.5];
+
+/// The same of a panel whose linkage can be read without a glass: a figure as high as eight lines of text, and as wide as a caption of one
+/// line.
+const LEGIBLE_PANEL: [f64; 2] = [16.0, 14.0];
+
+/// The most columns and rows of panels on a page.
 pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
-    max_in(contents_size(paper, theme), theme)
+    max_in(contents_size(paper, theme), LEAST_PANEL, theme)
 }
 
-/// The most columns and rows of panels in contents of a size.
-fn max_in(contents: Vector, theme: &Theme) -> [usize; 2] {
+/// The most columns and rows of panels of a least size in contents of a size.
+fn max_in(contents: Vector, least: [f64; 2], theme: &Theme) -> [usize; 2] {
     let em = theme.for_panel_size(Vector::zeros()).caption_size;
-    let fit = |length: f64, least: f64| ((length / least).floor() as usize).max(1);
-    [fit(contents.x, 5.0 * em), fit(contents.y, 10.5 * em)]
+    [0, 1].map(|k| ((contents[k] / (least[k] * em)).floor() as usize).max(1))
 }
 
 /// Panels beside a key: on small paper large enough for a figure, and for four lines of text under it.
@@ -290,14 +297,19 @@ fn beside_key(grid: [usize; 2]) -> Beside {
     Beside { grid, least: [0.0, 0.0], least_on_small_paper: [8.0, 14.0] }
 }
 
-/// The columns and rows for `count` cells: some fifteen at most on a page, each about as wide as high with its caption. A wide page has its key on the
-/// right.
-pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
+/// The columns and rows for `count` cells: some fifteen at most on a page, each about as wide as high with its caption, large enough to be read, and
+/// so few that the key has room. A wide page has its key on the right.
+pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize, heading: &Heading, key: &Key) -> [usize; 2] {
     const MOST: usize = 15;
     const ASPECT_RATIO: f64 = 1.0;
-    let contents = contents_size(paper, theme);
-    let contents = key_division::beside(contents, beside_key([1, 1]), theme);
-    balanced_grid(contents, max_in(contents, theme), count.min(MOST), ASPECT_RATIO)
+    let beside = key_division::beside(contents_size(paper, theme), beside_key([1, 1]), theme);
+    let most_in = max_in(beside, LEGIBLE_PANEL, theme);
+    let grid = |most: usize| balanced_grid(beside, most_in, count.min(most), ASPECT_RATIO);
+    let page = Vector::new(paper.width, paper.height);
+    let (_, top) = heading.lines_under_title(page, theme);
+    let contents = contents(page, heading, (top, &usual_symbols(Some(key), theme)), theme);
+    let has_key = |grid: &[usize; 2]| key_division::has_room(contents.size, beside_key(*grid), Some(key), theme);
+    (1..=MOST).rev().map(grid).find(has_key).unwrap_or_else(|| grid(MOST))
 }
 
 /// Draws a message in place of a figure: the cell is not assembled, and the reason.

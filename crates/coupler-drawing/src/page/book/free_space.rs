@@ -59,8 +59,21 @@ impl FreeSpace {
     }
 
     fn is_free(&self, (row, column): (usize, usize), count: usize) -> bool {
+        self.used([row, column], [row + count, column + count]) == 0
+    }
+
+    /// The number of squares with something in them from a row and column up to others.
+    fn used(&self, [top, left]: [usize; 2], [bottom, right]: [usize; 2]) -> u32 {
         let at = |row: usize, column: usize| self.sums[row * (self.columns + 1) + column];
-        at(row + count, column + count) + at(row, column) == at(row, column + count) + at(row + count, column)
+        at(bottom, right) + at(top, left) - at(top, right) - at(bottom, left)
+    }
+
+    /// The number of squares with something in them that a square with a centre meets.
+    pub fn used_around(&self, centre: Point, half: f64) -> u32 {
+        let index = |x: f64, count: usize| x.clamp(0.0, count as f64) as usize;
+        let [top, left] = [index((centre.y - half).floor(), self.rows), index((centre.x - half).floor(), self.columns)];
+        let bottom = index((centre.y + half).floor() + 1.0, self.rows);
+        self.used([top, left], [bottom, index((centre.x + half).floor() + 1.0, self.columns)])
     }
 }
 

@@ -244,10 +244,11 @@ pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) 
         let Some(page) = volume.page_index(first, front).filter(|_| is_in_chapter) else { continue };
         let cells = contents::listed_cells(before, chapter, volume);
         let child = |cell: &&CellEntry| Some(entry(&cell.caption, volume.page_index(before + cell.page, front)?));
+        let named = cells.iter().filter(|cell| !cell.caption.is_empty()).copied();
         entries.push(OutlineEntry {
             title: chapter.title.to_owned(),
             page_index: page,
-            children: cells.iter().filter_map(child).collect(),
+            children: named.filter_map(|cell| child(&cell)).collect(),
         });
     }
     entries.extend(

@@ -12,8 +12,9 @@ use super::super::heading;
 use super::super::theme::Theme;
 use super::super::{Layout, Options};
 use super::atlas::{Atlas, HowToRead};
+use super::free_space::FreeSpace;
 use crate::scene::{Anchor, Circle, Color, Curve, Group, Item, Path, Polyline, Scene, Stroke, Text};
-use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::geometry::{Point, Vector, distance_to_segment, trig};
 use parts::{LARGEST_TEXT, PARTS, Part};
 
 /// The part of the width and height that the plate takes on its page, at most.
@@ -64,7 +65,7 @@ fn part_anchor(part: &Part, plate: &Scene) -> Option<Point> {
     } else {
         let mut found = Vec::new();
         collect_groups(&plate.items, part.class, &mut found);
-        found.into_iter().map(items_points).find(|points| !points.is_empty())?
+        found.into_iter().map(group_points).find(|points| !points.is_empty())?
     };
     let reach = |p: &Point| p.coords.dot(&part.side);
     points.into_iter().reduce(|a, b| if reach(&b) > reach(&a) { b } else { a })
@@ -91,17 +92,17 @@ fn collect_texts<'s>(items: &'s [Item], found: &mut Vec<&'s Text>) {
     }
 }
 
-/// The upper left and the lower right corner of a text.
-fn text_box(text: &Text) -> [Point; 2] {
-    let start = text.start();
-    [start + Vector::new(0.0, -0.75 * text.size), start + Vector::new(text.width(), 0.25 * text.size)]
-}
-
 /// The middle of the upper edge, and the ends of the baseline.
 fn text_corners(text: &Text) -> Vec<Point> {
     let start = text.start();
     let corner = |x: f64, y: f64| start + Vector::new(x * text.width(), -0.7 * y * text.size);
     vec![corner(0.5, 1.0), corner(0.0, 0.0), corner(1.0, 0.0)]
+}
+
+/// Points of the lines of a group, or of its texts where it has no lines.
+fn group_points(items: &[Item]) -> Vec<Point> {
+    let lines: Vec<Item> = items.iter().filter(|item| !matches!(item, Item::Text(_))).cloned().collect();
+    Some(items_points(&lines)).filter(|points| !points.is_empty()).unwrap_or_else(|| items_points(items))
 }
 
 /// Points of items: ends and corners of lines, and of circles those in four directions.
@@ -185,40 +186,64 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     root.grouped(Group::figure("plate", format!("A plate, reduced: {}", says.join(". "))), || {
         items.into_iter().for_each(|item| root.record(item));
     });
+    drop(root);
+    let anchors = shown.iter().map(|(part, anchor)| (Point::from(anchor.coords * scale + shift), part.side));
+    let anchors: Vec<(Point, Vector)> = anchors.collect();
     let radius = 1.1 * theme.source_size;
-    let ink = theme.text_ink(theme.curve_ink(0));
-    let mut texts = Vec::new();
-    collect_texts(&how.plate.items, &mut texts);
-    // The corners of texts on the page.
-    let texts: Vec<[Point; 2]> =
-        texts.into_iter().map(|text| text_box(text).map(|corner| Point::from(corner.coords * scale + shift))).collect();
-    let covers = |centre: Point, [low, high]: &[Point; 2]| {
-        let nearest = Point::new(centre.x.clamp(low.x, high.x), centre.y.clamp(low.y, high.y));
-        (centre - nearest).norm() < 1.1 * radius
-    };
     let edge = theme.border + 1.5 * radius;
-    let mut placed: Vec<Point> = Vec::new();
-    for (k, (part, anchor)) in shown.iter().enumerate() {
-        let anchor = Point::from(anchor.coords * scale + shift);
-        let direction = part.side.try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
-        let around = |turn: u32| {
-            let (cos, sin) = coupler_curves::geometry::trig::cos_sin_deg(22.5 * f64::from(turn));
-            let turned = Vector::new(direction.x * cos - direction.y * sin, direction.x * sin + direction.y * cos);
-            anchor + turned * (2.4 + f64::from(turn / 16)) * radius
-        };
-        // Out of the way of the numbers before it, and of text.
-        let is_free = |at: &Point| {
-            placed.iter().all(|other| (other - at).norm() > 2.3 * radius)
-                && !texts.iter().any(|text| covers(*at, text))
-                && (edge..page.x - edge).contains(&at.x)
-                && (edge..page.y - edge).contains(&at.y)
-        };
-        let centre = (0..80).map(around).find(is_free).unwrap_or_else(|| around(0));
-        placed.push(centre);
+    let centres = number_places(&anchors, radius, edge, &FreeSpace::of_page(&scene, theme.border), page);
+    let root = area::whole_page(&mut scene);
+    let ink = theme.text_ink(theme.curve_ink(0));
+    for (k, ((anchor, _), centre)) in anchors.into_iter().zip(centres).enumerate() {
         draw_number(&root, (k + 1, anchor, centre), radius, ink, theme);
     }
     drop(root);
     scene
+}
+
+/// The centres of the numbers of a plate, of a radius and at least so far from the edges of the page: each near its anchor, as far as possible to
+/// its side, where its circle covers nothing and its line little.
+fn number_places(anchors: &[(Point, Vector)], radius: f64, edge: f64, space: &FreeSpace, page: Vector) -> Vec<Point> {
+    /// The directions and distances that are tried, in radii.
+    const TURNS: u32 = 32;
+    const DISTANCES: [f64; 12] = [2.0, 2.4, 2.8, 3.4, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0, 14.0];
+    /// What a covered square of a millimetre costs in radii of distance, one that a line passes, and a turn to the opposite side.
+    const COVERED: f64 = 20.0;
+    const PASSED: f64 = 1.5;
+    const TURNED: f64 = 1.5;
+    let mut placed: Vec<[Point; 2]> = Vec::new();
+    for &(anchor, side) in anchors {
+        let direction = side.try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
+        let candidates = DISTANCES.iter().flat_map(|distance| (0..TURNS).map(move |turn| (*distance, turn)));
+        let candidates = candidates.map(|(distance, turn)| {
+            let (cos, sin) = trig::cos_sin_deg(360.0 / f64::from(TURNS) * f64::from(turn));
+            let turned = Vector::new(direction.x * cos - direction.y * sin, direction.x * sin + direction.y * cos);
+            (distance + TURNED * (1.0 - cos), anchor + turned * (distance * radius))
+        });
+        let is_allowed = |at: &Point| {
+            let is_apart = |[other, end]: &[Point; 2]| {
+                (other - at).norm() > 2.3 * radius
+                    && distance_to_segment(*at, *other, *end) > 1.2 * radius
+                    && distance_to_segment(*other, *at, anchor) > 1.2 * radius
+            };
+            (edge..page.x - edge).contains(&at.x)
+                && (edge..page.y - edge).contains(&at.y)
+                && placed.iter().all(is_apart)
+        };
+        let cost = |(cost, at): (f64, Point)| {
+            let line = anchor - at;
+            // What is at the anchor is what the number is of.
+            let steps = ((line.norm() - radius).floor() as usize).saturating_sub(1);
+            let on_line = |k: usize| at + line.normalize() * (radius + k as f64);
+            let passed = (0..steps).filter(|k| space.used_around(on_line(*k), 0.0) > 0).count();
+            let covered = f64::from(space.used_around(at, 1.1 * radius));
+            (cost + COVERED * covered + PASSED * passed as f64, at)
+        };
+        let best = candidates.filter(|(_, at)| is_allowed(at)).map(cost).min_by(|a, b| a.0.total_cmp(&b.0));
+        let centre = best.map_or(anchor + direction * (2.4 * radius), |(_, at)| at);
+        placed.push([centre, anchor]);
+    }
+    placed.into_iter().map(|[centre, _]| centre).collect()
 }
 
 /// Draws a number in a circle with a line to what it is the number of.
@@ -240,4 +265,33 @@ fn draw_number(
     });
     let at = centre + Vector::new(0.0, 0.36 * theme.source_size);
     root.record(theme.text_line(&number.to_string(), at, Anchor::Middle, theme.source_size, ink));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_cover_nothing_that_is_drawn() {
+        let options = Options::for_paper(super::super::super::Paper { width: 148.0, height: 105.0 });
+        let theme = &options.theme.for_paper(options.paper);
+        let mut scene = empty_scene(String::new(), &options, theme);
+        let anchors = [(40.0, 60.0), (46.0, 60.0), (100.0, 60.0)].map(|(x, y)| (Point::new(x, y), Vector::y()));
+        let radius = 1.1 * theme.source_size;
+        // A text below each anchor, where its number is as a rule, and a line above two of them.
+        for (at, _) in anchors {
+            let below = at + Vector::new(0.0, 2.0 * radius);
+            scene.items.push(Item::Text(theme.text_line("0.5", below, Anchor::Middle, 3.0, theme.ink).text));
+        }
+        let line = vec![Point::new(20.0, 60.0 - 2.2 * radius), Point::new(60.0, 60.0 - 2.2 * radius)];
+        scene.items.push(Item::Path(Path::stroked(line, theme.stroke(theme.ink, 0.3))));
+        let space = FreeSpace::of_page(&scene, theme.border);
+        let page = Vector::new(scene.width, scene.height);
+        let centres = number_places(&anchors, radius, 10.0, &space, page);
+        for (k, (centre, (anchor, _))) in centres.iter().zip(anchors).enumerate() {
+            assert_eq!(space.used_around(*centre, radius), 0, "{centre}");
+            assert!((centre - anchor).norm() < 6.0 * radius, "{centre}");
+            assert!(centres[..k].iter().all(|other| (other - centre).norm() > 2.0 * radius));
+        }
+    }
 }
