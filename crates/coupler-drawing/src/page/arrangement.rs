@@ -76,6 +76,8 @@ impl Arrangement {
         extents: &Extents,
     ) -> Arrangement {
         const MIN_ENLARGEMENT: f64 = 2.0;
+        /// The least size of a linkage apart from its curves, in ems of a note: its joints are then distinct.
+        const MIN_LINKAGE: f64 = 7.0;
         let [curve, key] = self.rects(whole);
         let key_scale = fit_scale(key, extents.linkage, of_key);
         if page_scale.is_some_and(|scale| key_scale < scale * (1.0 - SCALE_ROUNDING)) {
@@ -83,7 +85,10 @@ impl Arrangement {
         }
         let enlargement = extents.curve_scale(curve, of_curve) / page_scale.unwrap_or(key_scale);
         let narrowest = curve.divide(extents.curves.len()).into_iter().chain([key]).map(|frame| frame.size.x);
-        let is_legible = narrowest.fold(f64::INFINITY, f64::min) >= Plot::min_width(of_curve);
+        // At the scale of the page the linkage is as large on a single figure.
+        let is_seen =
+            page_scale.is_some() || key_scale * extents.linkage.size().max() >= MIN_LINKAGE * of_key.note_size;
+        let is_legible = narrowest.fold(f64::INFINITY, f64::min) >= Plot::min_width(of_curve) && is_seen;
         if enlargement >= MIN_ENLARGEMENT && is_legible { self } else { Arrangement::Combined }
     }
 

@@ -93,6 +93,8 @@ pub(super) struct TickPoses {
     is_angle: bool,
     /// The inputs of each pass, and the positions of all joints: just before, at and just after each.
     passes: Vec<(Vec<f64>, JointPositions)>,
+    /// The positions of all joints well after the start: one that stands still there moves off in its direction.
+    after_start: JointPositions,
 }
 
 impl TickPoses {
@@ -100,6 +102,8 @@ impl TickPoses {
     pub fn new(linkage: &Linkage, circuit: &Circuit, steps: TickSteps) -> TickPoses {
         /// The part of a step over which the direction of the motion is taken: a chord of less than 0.01 mm on paper.
         const PART: f64 = 1.0 / 3000.0;
+        /// The part of a step after the start.
+        const AFTER_START: f64 = 1.0 / 60.0;
         let mut passes = Vec::new();
         for (k, pass) in circuit.passes.iter().enumerate() {
             let (from, to) = (pass.from.input.value, pass.to.input.value);
@@ -118,7 +122,11 @@ impl TickPoses {
             let positions = motion::poses(linkage, pass, &inputs.iter().flat_map(around).collect::<Vec<f64>>());
             passes.push((inputs, positions));
         }
-        TickPoses { steps, is_angle: linkage.input() != Input::Length, passes }
+        let first = &circuit.passes[0];
+        let (from, to) = (first.from.input.value, first.to.input.value);
+        let step = AFTER_START * if to >= from { steps.tick } else { -steps.tick };
+        let after_start = motion::poses(linkage, first, &[from + step.clamp(-(to - from).abs(), (to - from).abs())]);
+        TickPoses { steps, is_angle: linkage.input() != Input::Length, passes, after_start }
     }
 
     /// The number at a tick, if it has one.
@@ -142,9 +150,20 @@ impl TickPoses {
             inputs.iter().enumerate().map(station).collect::<Vec<_>>()
         };
         let is_defined = |station: &Station| station.at.x.is_finite() && station.at.y.is_finite();
-        self.passes.iter().flat_map(of_pass).filter(is_defined).collect()
+        let mut stations: Vec<Station> = self.passes.iter().flat_map(of_pass).filter(is_defined).collect();
+        if let Some(start) = stations.first_mut() {
+            let off = plot.page_from_plane.apply(self.after_start.point(joint, 0)) - start.at;
+            // Of a motion that begins with a higher power of the input than the second, only rounding is seen so near.
+            if start.direction.norm() < RESOLVED * off.norm() {
+                start.direction = off;
+            }
+        }
+        stations
     }
 }
+
+/// The part of the way well after the start from which a direction near it is more than rounding.
+const RESOLVED: f64 = 1e-5;
 
 /// The multiples of a step from `low` to `high`, of which there are at most a thousand.
 fn ticks_between(low: f64, high: f64, step: f64) -> Vec<f64> {
@@ -171,4 +190,44 @@ pub(super) fn start_item(at: Point, direction: Vector, ink: Color, theme: &Theme
     let points = vec![at + along * 1.2, at - along * 0.8 + across, at - along * 0.8 - across];
     let stroke = Some(theme.stroke(theme.paper, theme.hair_width));
     Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(ink) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::page::rect::Rect;
+    use coupler_curves::catalogue;
+    use coupler_curves::family::{Family, Sampling};
+    use coupler_curves::geometry::Bounds;
+    use coupler_curves::solve::Solver;
+
+    /// Also of a ram that moves with the fourth power of the input at first.
+    #[test]
+    fn arrows_at_the_start_point_to_where_the_point_goes() {
+        let press = (catalogue::find("toggle-press").unwrap(), vec![("r".to_owned(), 0.9)]);
+        let defaults = catalogue::all().iter().map(|template| (template.clone(), Vec::new()));
+        for (template, values) in defaults.chain([press]) {
+            let id = template.id.clone();
+            let Ok(family) = Family::single_cell(template, &values, Sampling::Samples(72)) else { continue };
+            let Some(solved) = Solver::new(&family).solve(0) else { continue };
+            for curve in &solved.curves {
+                let circuit = solved.circuit(curve);
+                let pass = &circuit.passes[0];
+                let (from, to) = (pass.from.input.value, pass.to.input.value);
+                let later = motion::poses(&solved.linkage, pass, &[from, from + 0.005 * (to - from)]);
+                let [start, later] = [0, 1].map(|k| later.point(curve.joint, k));
+                let bounds = Bounds::from_points(circuit.points(curve.joint));
+                if (later - start).norm() < 1e-9 * bounds.size().max() {
+                    continue;
+                }
+                let plot =
+                    Plot::whole(Rect { corner: Point::origin(), size: Vector::repeat(100.0) }).fitted_to(bounds);
+                let poses = TickPoses::new(&solved.linkage, circuit, TickSteps::new(&solved.linkage, 5.0));
+                let station = &poses.stations(curve.joint, &plot)[0];
+                let on_page = plot.page_from_plane.apply(later) - plot.page_from_plane.apply(start);
+                let cosine = on_page.normalize().dot(&station.direction.normalize());
+                assert!(cosine > 0.5, "{id}, joint {:?}, circuit {}: {cosine}", curve.joint, curve.circuit);
+            }
+        }
+    }
 }

@@ -17,10 +17,10 @@ pub use book::{LinkKind, LinkTarget, OutlineEntry, PageLink, PageNumber};
 #[cfg(feature = "plotters")]
 pub use canvas::Canvas;
 pub use color::Color;
-pub(crate) use font::has_right_to_left;
 pub use font::{Face, FontFamily, FontFile, FontFileError, Typeface};
 #[cfg(feature = "fonts")]
 pub use font::{GlyphRun, OutlineSegment, PlacedGlyph};
+pub(crate) use font::{has_right_to_left, reading_parts};
 pub use text::{Anchor, MIN_TEXT_SIZE, Text, TextRun};
 
 #[cfg(feature = "pdf")]

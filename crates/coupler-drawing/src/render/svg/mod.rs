@@ -6,10 +6,12 @@ mod outlines;
 mod path_data;
 
 use std::fmt::{self, Write};
+use std::ops::Range;
 
 use super::TextMode;
 use crate::scene::{
-    Anchor, Animation, Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text, has_right_to_left,
+    Anchor, Animation, Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text, TextRun, has_right_to_left,
+    reading_parts,
 };
 use number::{Number, to_micrometres};
 use path_data::{absolute_path_data, write_path_data, write_spline_data};
@@ -206,7 +208,9 @@ impl SvgWriter {
             let [x, y] = [text.position.x, text.position.y].map(|c| Number(to_micrometres(c)));
             self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
         }
-        if text.runs.iter().any(|run| has_right_to_left(&run.text)) {
+        let is_right_to_left = text.runs.iter().any(|run| has_right_to_left(&run.text));
+        let parts = if is_right_to_left { reading_parts(&text.words()) } else { Vec::new() };
+        if parts.len() == 1 {
             // The direction is that of the first letter, as in the other formats.
             self.output.push_str(" unicode-bidi=\"plaintext\"");
         }
@@ -215,8 +219,9 @@ impl SvgWriter {
             self.output.push_str(" xml:space=\"preserve\"");
         }
         self.output.push('>');
+        let isolated = (parts.len() > 1).then(|| isolated_runs(&text.runs, &parts));
         let mut rise = 0.0;
-        for run in &text.runs {
+        for run in isolated.as_ref().unwrap_or(&text.runs) {
             let is_shifted = run.rise(text.size) != rise;
             if !is_shifted && !run.is_raised && !run.face.is_italic {
                 let _ = Escaped(&run.text).write_to(&mut self.output);
@@ -239,6 +244,28 @@ impl SvgWriter {
         }
         self.output.push_str("</text>\n");
     }
+}
+
+/// Runs of text in which each part is isolated, so that it has the direction of its first letter.
+fn isolated_runs(runs: &[TextRun], parts: &[Range<usize>]) -> Vec<TextRun> {
+    const FIRST: char = '\u{2068}';
+    const LAST: char = '\u{2069}';
+    let mut start = 0;
+    let mut isolate = |run: &TextRun| {
+        let mut own = String::with_capacity(run.text.len() + 6);
+        for (at, c) in run.text.char_indices() {
+            if parts.iter().any(|part| part.start == start + at) {
+                own.push(FIRST);
+            }
+            own.push(c);
+            if parts.iter().any(|part| part.end == start + at + c.len_utf8()) {
+                own.push(LAST);
+            }
+        }
+        start += run.text.len();
+        TextRun { text: own, ..run.clone() }
+    };
+    runs.iter().map(&mut isolate).collect()
 }
 
 /// Text with escaped markup; characters that XML does not allow become replacement characters.

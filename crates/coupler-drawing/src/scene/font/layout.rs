@@ -2,14 +2,14 @@
 //!
 //! Characters that a face has are set one by one, without kerning, so that all formats agree. The others are shaped with the
 //! font file of the typeface, if it has one, and text that runs from right to left is reordered by the Unicode
-//! Bidirectional Algorithm (UAX #9).
+//! Bidirectional Algorithm (UAX #9), each part that has a direction of its own by itself.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use unicode_bidi::BidiInfo;
 
-use super::{Face, FontFile, OutlineSegment, has_right_to_left};
+use super::{Face, FontFile, OutlineSegment, has_right_to_left, reading_parts};
 use crate::scene::{Text, TextRun};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -99,28 +99,42 @@ fn place(runs: &[TextRun], size: f64) -> Vec<GlyphRun<'_>> {
         return placed;
     }
     let whole: String = runs.iter().map(|run| run.text.as_str()).collect();
-    let bidi = BidiInfo::new(&whole, None);
-    for paragraph in &bidi.paragraphs {
-        let (levels, visual) = bidi.visual_runs(paragraph, paragraph.range.clone());
-        for range in visual {
-            let is_right_to_left = levels[range.start].is_rtl();
-            let mut parts: Vec<(&TextRun, Range<usize>)> = Vec::new();
-            let mut start = 0;
-            for run in runs {
-                let end = start + run.text.len();
-                let part = range.start.max(start)..range.end.min(end);
-                if part.start < part.end {
-                    parts.push((run, part.start - start..part.end - start));
-                }
-                start = end;
+    for part in reading_parts(&whole) {
+        let bidi = BidiInfo::new(&whole[part.clone()], None);
+        for paragraph in &bidi.paragraphs {
+            let (levels, visual) = bidi.visual_runs(paragraph, paragraph.range.clone());
+            for range in visual {
+                let is_right_to_left = levels[range.start].is_rtl();
+                let range = part.start + range.start..part.start + range.end;
+                append_range(runs, range, is_right_to_left, size, &mut placed);
             }
-            if is_right_to_left {
-                parts.reverse();
-            }
-            parts.into_iter().for_each(|(run, part)| append(run, part, is_right_to_left, size, &mut placed));
         }
     }
     placed
+}
+
+/// Appends the glyphs of a range of the text of all runs, which has one direction.
+fn append_range<'t>(
+    runs: &'t [TextRun],
+    range: Range<usize>,
+    is_right_to_left: bool,
+    size: f64,
+    placed: &mut Vec<GlyphRun<'t>>,
+) {
+    let mut parts: Vec<(&TextRun, Range<usize>)> = Vec::new();
+    let mut start = 0;
+    for run in runs {
+        let end = start + run.text.len();
+        let part = range.start.max(start)..range.end.min(end);
+        if part.start < part.end {
+            parts.push((run, part.start - start..part.end - start));
+        }
+        start = end;
+    }
+    if is_right_to_left {
+        parts.reverse();
+    }
+    parts.into_iter().for_each(|(run, part)| append(run, part, is_right_to_left, size, placed));
 }
 
 /// Appends the glyphs of a part of a run, which has one direction.
@@ -231,6 +245,22 @@ mod tests {
         assert_eq!(visual(&text(vec![TextRun::new("אב 12 p", face)])), "p| |12| בא");
         let runs = vec![TextRun::new("אב ", face), TextRun::new("p", typeface().italic()), TextRun::new(" = 3", face)];
         assert_eq!(visual(&text(runs)), "p| = 3| בא");
+    }
+
+    #[test]
+    fn pieces_of_different_directions_are_read_from_left_to_right() {
+        let face = typeface().regular();
+        let visual = |words: &str| visual(&text(vec![TextRun::new(words, face)])).replace('|', "");
+        assert_eq!(visual("אב גד · 4 geometries · 1 page"), "דג בא · 4 geometries · 1 page");
+        // A value stays next to its name: 1.04 is not the second value of the offset.
+        assert_eq!(
+            visual("אב 2.008 · גד 1.04, crank = 1, offset = 0.25"),
+            "2.008 בא · 1.04 דג, crank = 1, offset = 0.25"
+        );
+        assert_eq!(visual("crank = 1, אב 2, 3"), "crank = 1, 3 ,2 בא");
+        // What is all in one direction is read in it.
+        assert_eq!(visual("אב · גד, 3"), "3 ,דג · בא");
+        assert_eq!(reading_parts("p = 2, q = 3 · r"), [0.."p = 2, q = 3 · r".len()]);
     }
 
     #[test]

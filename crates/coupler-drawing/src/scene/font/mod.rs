@@ -25,7 +25,7 @@ pub use layout::{GlyphRun, PlacedGlyph};
 pub use no_file::FontFile;
 #[cfg(feature = "fonts")]
 pub use outline::OutlineSegment;
-pub use typeface::{Face, FontFamily, Typeface, has_right_to_left};
+pub use typeface::{Face, FontFamily, Typeface, has_right_to_left, reading_parts};
 
 use widths::{UNITS_PER_EM, units};
 

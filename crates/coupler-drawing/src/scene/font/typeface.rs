@@ -1,5 +1,7 @@
 //! Typefaces, and their faces.
 
+use std::ops::Range;
+
 use super::FontFile;
 
 /// A family of fonts, and a font file for the characters that it does not have.
@@ -75,4 +77,37 @@ pub struct Face {
 pub fn has_right_to_left(text: &str) -> bool {
     let is_right_to_left = |c: char| matches!(u32::from(c), 0x0590..=0x08ff | 0xfb1d..=0xfdff | 0xfe70..=0xfeff | 0x10800..=0x10fff | 0x1e800..=0x1efff);
     text.chars().any(is_right_to_left)
+}
+
+/// The parts of a text that are read one after the other from left to right, with the separators between them: one is the whole text, unless
+/// pieces between dots or commas begin in different directions. Each has the direction of its first letter.
+pub fn reading_parts(text: &str) -> Vec<Range<usize>> {
+    const SEPARATORS: [&str; 2] = [" · ", ", "];
+    let is_right_to_left = |range: &Range<usize>| {
+        let first = text[range.clone()].chars().find(|c| c.is_alphabetic())?;
+        Some(has_right_to_left(first.encode_utf8(&mut [0; 4])))
+    };
+    let matches = SEPARATORS.iter().flat_map(|separator| text.match_indices(separator));
+    let mut separators: Vec<Range<usize>> = matches.map(|(at, separator)| at..at + separator.len()).collect();
+    separators.sort_by_key(|separator| separator.start);
+    separators.dedup_by(|next, last| next.start < last.end);
+    let ends = separators.iter().map(|separator| separator.start).chain([text.len()]);
+    let starts = std::iter::once(0).chain(separators.iter().map(|separator| separator.end));
+    let mut pieces = starts.zip(ends).map(|(start, end)| start..end);
+    let mut parts: Vec<Range<usize>> = pieces.next().into_iter().collect();
+    let mut last = parts.first().and_then(is_right_to_left);
+    for (separator, piece) in separators.iter().zip(pieces) {
+        let own = is_right_to_left(&piece);
+        // A piece after a comma is read with the one before it, unless its direction is another.
+        let is_read_on = text[separator.clone()] == *", " && (own.is_none() || last.is_none() || own == last);
+        match parts.last_mut().filter(|_| is_read_on) {
+            Some(part) => (part.end, last) = (piece.end, last.or(own)),
+            None => {
+                parts.extend([separator.clone(), piece]);
+                last = own;
+            }
+        }
+    }
+    let directions: Vec<bool> = parts.iter().filter_map(is_right_to_left).collect();
+    if directions.windows(2).all(|pair| pair[0] == pair[1]) { std::iter::once(0..text.len()).collect() } else { parts }
 }
