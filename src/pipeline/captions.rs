@@ -3,6 +3,7 @@
 use std::cell::LazyCell;
 
 use crate::manifest::PlannedFamily;
+use coupler_curves::expression::Caption;
 use coupler_curves::family::{CaptionParameter, Cell};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{ChangedCell, SolvedCell, Solver};
@@ -28,7 +29,19 @@ impl<'a> Captions<'a> {
         self.with_decimals(cell, measures, 0)
     }
 
-    /// The same of a solved cell, with as many decimals of derived values as its properties need: the linkage of the rounded values has
+    /// The caption of a cell that is not solved: its parameters, where measures are in that of the manifest.
+    pub fn of_unsolved_cell(&self, cell: &Cell) -> String {
+        let family = &self.planned.family;
+        let has_measures = |caption: &Caption| !family.measures_in_caption(caption).is_empty();
+        if !family.captions[0].as_ref().is_some_and(has_measures) {
+            let [caption, _] = self.of_cell(cell, &[]);
+            return caption;
+        }
+        let parameters = self.parameters.iter().map(|parameter| family.caption_dimension(cell, *parameter).to_string());
+        parameters.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The same as [`Captions::of_cell`] of a solved cell, with as many decimals of derived values as its properties need: the linkage of the rounded values has
     /// the same properties, as they are printed.
     pub fn of_solved_cell(&self, solved: &SolvedCell) -> [String; 2] {
         /// No double has more that matter.

@@ -140,8 +140,7 @@ impl<'a> FamilyPart<'a> {
         let FamilyPipeline { composer: Composer { planned, captions, .. }, arrangement, .. } = &self.family.pipeline;
         let family = &planned.family;
         let cell = |(k, cell): (usize, usize)| {
-            // The values of measures are not known yet.
-            let [caption, _] = captions.of_cell(&family.cell(cell), &[]);
+            let caption = captions.of_unsolved_cell(&family.cell(cell));
             CellEntry { caption, page: self.first_page(k) }
         };
         let cells = if planned.chart.is_none() { self.cells.iter().enumerate().map(cell).collect() } else { vec![] };

@@ -99,11 +99,14 @@ impl Family {
 
     /// The measures that the caption lines show.
     pub fn caption_measures(&self) -> MeasureSet {
+        let shown = self.captions.iter().flatten().map(|caption| self.measures_in_caption(caption));
+        shown.fold(MeasureSet::EMPTY, |set, shown| set | shown)
+    }
+
+    /// The measures that a caption line shows.
+    pub fn measures_in_caption(&self, caption: &Caption) -> MeasureSet {
         let is_driven_by_length = self.template.is_driven_by_length();
-        let is_shown = |measure: &Measure| {
-            self.captions.iter().flatten().any(|caption| caption.uses(measure.name_for(is_driven_by_length)))
-        };
-        MeasureSet::of(is_shown)
+        MeasureSet::of(|measure| caption.uses(measure.name_for(is_driven_by_length)))
     }
 
     /// Whether `where` uses any measure, and so leaves out cells without curves.

@@ -29,13 +29,18 @@ impl Template {
     ///
     /// Of a linkage that is seen from a moving link, the driving link's angle is measured from the link that it is defined on.
     pub fn input_as_drawn(&self) -> String {
-        let turning = if self.orientation.handedness() > 0.0 { "counter-clockwise" } else { "clockwise" };
+        let turning = self.turning_as_drawn();
         let start = match (self.seen_from, self.quarter_turns()) {
             (Some(_), _) => format!("the x-axis of link {}", self.defined_link()),
             (None, Some(quarters)) => ["x", "y", "−x", "−y"][quarters].to_owned(),
             (None, None) => format!("{}° from x", format_exactly(self.orientation.rotation_deg())),
         };
         format!("from the direction of {start}, {turning}")
+    }
+
+    /// The sense on paper in which angles of cranks increase.
+    pub(super) fn turning_as_drawn(&self) -> &'static str {
+        if self.orientation.handedness() > 0.0 { "counter-clockwise" } else { "clockwise" }
     }
 
     /// A direction in degrees on paper; as coordinates, before a rotation that is stated apart.

@@ -88,10 +88,11 @@ impl Template {
                 });
                 match is_zero(&phase.value) {
                     true => geared,
-                    false => geared
-                        .with_words(", at ")
-                        .with(phase.to_math_text())
-                        .with_words(format!(" where {} is at 0°", name(*crank))),
+                    false => geared.with_words(", at ").with(phase.to_math_text()).with_words(format!(
+                        " {} where {} is at 0°",
+                        self.turning_as_drawn(),
+                        name(*crank)
+                    )),
                 }
             }
             JointKindTemplate::Piston { base: [from, pivot], length: crank, offset, side } => {
@@ -375,7 +376,7 @@ mod tests {
             (
                 "geared-five-bar",
                 "D",
-                "pin of a crank geared to A, PD = d, ratio n : m, over an idler where it is positive, at phase where A is at 0°",
+                "pin of a crank geared to A, PD = d, ratio n : m, over an idler where it is positive, at phase counter-clockwise where A is at 0°",
             ),
             (
                 "scotch-yoke",
@@ -393,6 +394,10 @@ mod tests {
         ] {
             assert_eq!(construction(id, joint), expected, "{id} {joint}");
         }
+        let mut mirrored = (*catalogue::find("geared-five-bar").unwrap()).clone();
+        mirrored.orientation = crate::geometry::Orientation::new(true, 0.0);
+        let index = mirrored.joints.iter().position(|placed| placed.name == "D").unwrap();
+        assert!(mirrored.construction(index).to_string().ends_with("at phase clockwise where A is at 0°"));
         for template in catalogue::all() {
             assert!((0..template.joints.len()).all(|joint| !template.construction(joint).is_empty()));
         }

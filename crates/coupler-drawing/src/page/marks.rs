@@ -35,6 +35,8 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     }
     if let (Some(least), Some(most)) = (first.measure(Measure::MU_MIN), first.measure(Measure::MU_MAX)) {
         parts.push(transmission_text(least, most));
+    } else {
+        parts.extend(least_transmission_text(solved, first));
     }
     parts.extend(input_range(solved, first));
     parts.extend(tolerance_fact(solved));
@@ -158,6 +160,19 @@ fn transmission_text(least: f64, most: f64) -> String {
         (false, true) => format!("μ from {least:.1}°, reaches 180°"),
         (true, true) => "μ reaches 0° and 180°".to_owned(),
     }
+}
+
+/// The least transmission angle of a linkage that is no four-bar, at any of its joints, on the circuit on which it is drawn, and on the others where
+/// it is less; `None` where no joint has one that changes.
+fn least_transmission_text(solved: &SolvedCell, first: &MeasuredCurve) -> Option<String> {
+    /// What is printed as 0 or 90 with one decimal.
+    const ROUNDING: f64 = 0.05;
+    let own = first.measure(Measure::MU_WORST).filter(|own| *own < 90.0 - ROUNDING)?;
+    let of_others = solved.curves.iter().filter(|curve| curve.circuit != first.circuit);
+    let of_others = of_others.filter_map(|curve| curve.measure(Measure::MU_WORST)).fold(own, f64::min);
+    let least = |value: f64| if value < ROUNDING { "0°".to_owned() } else { format!("{value:.1}°") };
+    let others = if own - of_others > ROUNDING { format!(", elsewhere {}", least(of_others)) } else { String::new() };
+    Some(format!("least μ {}{others}", least(own)))
 }
 
 /// What is said of the deviation of a straight portion before the word and after the length: nothing if the criterion sets

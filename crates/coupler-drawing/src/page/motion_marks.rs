@@ -220,8 +220,7 @@ mod tests {
                 if (later - start).norm() < 1e-9 * bounds.size().max() {
                     continue;
                 }
-                let plot =
-                    Plot::whole(Rect { corner: Point::origin(), size: Vector::repeat(100.0) }).fitted_to(bounds);
+                let plot = Plot::whole(Rect { corner: Point::origin(), size: Vector::repeat(100.0) }).fitted_to(bounds);
                 let poses = TickPoses::new(&solved.linkage, circuit, TickSteps::new(&solved.linkage, 5.0));
                 let station = &poses.stations(curve.joint, &plot)[0];
                 let on_page = plot.page_from_plane.apply(later) - plot.page_from_plane.apply(start);
