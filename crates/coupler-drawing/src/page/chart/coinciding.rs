@@ -1,7 +1,7 @@
 //! Lines of a chart that coincide, which are drawn once.
 
 use crate::chart::{AxisRange, PointSource, Series};
-use coupler_curves::geometry::{Point, distance_to_segment};
+use coupler_curves::geometry::{Bounds, Point, distance_to_segment};
 
 /// The distances, as parts of the axes, up to which two lines are one: of lines through samples, what is less than their weight, of those through
 /// linkages, which have marks, rounding.
@@ -27,9 +27,12 @@ pub(super) fn shared_labels(
         series.iter().map(|line| line.path(quantity_index).into_iter().map(on_axes).collect()).collect();
     let at_points: Vec<Vec<Option<Point>>> =
         series.iter().map(|line| line.points(quantity_index).map(on_axes).collect()).collect();
+    // Of most pairs of lines, the bounds say that they differ, without a comparison of all their points.
+    let bounds: Vec<Bounds> = drawn.iter().map(|line| Bounds::from_points(line.iter().flatten().copied())).collect();
     let are_drawn_as_one = |a: usize, b: usize| {
-        has_same_points(&drawn[a], &drawn[b], VISIBLE)
-            || runs_along(&drawn[a], &drawn[b]) && runs_along(&drawn[b], &drawn[a])
+        have_same_bounds(bounds[a], bounds[b])
+            && (has_same_points(&drawn[a], &drawn[b], VISIBLE)
+                || runs_along(&drawn[a], &drawn[b]) && runs_along(&drawn[b], &drawn[a]))
     };
     let coincide = |a: usize, b: usize| match source {
         // Each point is a linkage, which has a mark. Lines without any may be there between linkages.
@@ -69,6 +72,14 @@ pub(super) fn shared_labels(
         labels[0] = Some(only.label.clone());
     }
     labels
+}
+
+/// Whether no side of two bounds is further apart than lines that are one can be.
+fn have_same_bounds(a: Bounds, b: Bounds) -> bool {
+    /// Of the sides, to rounding.
+    const MOST: f64 = VISIBLE * (1.0 + 1e-9);
+    let is_near = |a: Point, b: Point| (0..2).all(|k| a[k] == b[k] || (a[k] - b[k]).abs() <= MOST);
+    is_near(a.min, b.min) && is_near(a.max, b.max)
 }
 
 /// Whether two lines have the same points.
@@ -157,5 +168,26 @@ mod tests {
         let between = Series { label: "h".to_owned(), paths: vec![path], ..none.clone() };
         assert_eq!(labels(&[none.clone(), between, none.clone()]), ["-", "h", "-"]);
         assert_eq!(labels(&[none.clone(), none]), ["", "-"]);
+    }
+
+    #[test]
+    fn many_lines_that_differ_are_not_compared_at_all_their_points() {
+        let count = 1440;
+        let line = |k: usize| Series {
+            label: k.to_string(),
+            x: (0..count).map(|i| i as f64).collect(),
+            y: vec![(0..count).map(|i| (i * i) as f64 + (k / 2) as f64 * 1e4).collect()],
+            ..Series::default()
+        };
+        let lines: Vec<Series> = (0..1000).map(line).collect();
+        let axis = |high: f64| AxisRange { low: 0.0, high, is_log: false };
+        let axes = [axis(count as f64), axis(5e6)];
+        let begin = std::time::Instant::now();
+        let labels = shared_labels(&lines, 0, PointSource::Samples, axes);
+        assert!(begin.elapsed().as_secs_f64() < 1.0, "{:?}", begin.elapsed());
+        assert_eq!(
+            [labels[0].as_deref(), labels[1].as_deref(), labels[2].as_deref()],
+            [Some("0; 1"), None, Some("2; 3")]
+        );
     }
 }
