@@ -123,19 +123,13 @@ fn strip_height(width: f64, key: &Key, theme: &Theme) -> f64 {
 
 /// What is said on a page whose key is left out, as its panels leave no room to it in contents of this size.
 pub(super) fn left_out_note(contents: Vector, beside: Beside, key: &Key, options: &Options) -> String {
-    /// Papers are larger in steps of this, in millimetres.
-    const STEP: f64 = 5.0;
     let own = options.paper;
     let taken = heading::contents_size(own, &options.theme.for_paper(own)) - contents;
-    let larger = (1..=60).map(|k| {
-        let side = |side: f64| (side * (1.0 + 0.05 * f64::from(k)) / STEP).ceil() * STEP;
-        Paper { width: side(own.width), height: side(own.height) }
-    });
     let has_room = |paper: &Paper| {
         let theme = &options.theme.for_paper(*paper);
         has_room(heading::contents_size(*paper, theme) - taken, beside, Some(key), theme)
     };
-    let paper = larger.into_iter().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
+    let paper = own.larger().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
     let paper = paper.map_or("larger paper".to_owned(), |size| format!("paper of {size}"));
     format!("the key is left out: it needs {paper} or fewer figures")
 }
