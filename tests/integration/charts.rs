@@ -622,9 +622,9 @@ fn placed_texts(svg: &str) -> Vec<(String, [f64; 3])> {
 }
 
 #[test]
-fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
+fn labels_do_not_overprint_the_number_of_those_left_out() {
     let atlas = rendered(
-        "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
+        "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[page]\npaper = \"a5\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
          layout = \"chart\"\nchart = { x = \"crank\", y = [\"mu_min_deg\", \"length\", \"bbox_x_max\", \"output_swing_deg\"], \
          by = [\"coupler\", \"rocker\"] }\nsampling = { step = \"10 deg\" }\n\
          grid = { crank = [0.25, 0.5, 1], coupler = [2.5, 3, 3.5, 4], rocker = [2.5, 3, 3.5, 4, 4.5] }\nlet = { frame = 4 }\n",
@@ -639,6 +639,27 @@ fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
         let count = texts.iter().filter(|(_, place)| overprints(place)).count();
         assert_eq!(count, 1, "{rest} at {x}, {y}");
     }
+    assert!(texts.iter().any(|(text, _)| text.starts_with("all lines have their labels on paper of ")), "{texts:?}");
+}
+
+/// Of more lines than have room beside a small chart, the labels are below it, and no word of one is divided.
+#[test]
+fn labels_of_many_lines_on_small_paper_are_whole() {
+    let chart = |grid: &str| {
+        let atlas = rendered(&format!(
+            "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[page]\npaper = \"a6\"\n[[family]]\nid = \"f\"\n\
+             linkage = \"four-bar\"\nlayout = \"chart\"\nchart = {{ x = \"frame\", y = [\"mu_worst_deg\", \"length\"] }}\nsampling = {{ samples = 24 }}\n\
+             grid = {{ frame = [3, 3.5, 4], crank = 1, along = 1.5, across = 1, {grid} }}\n",
+        ));
+        placed_texts(&atlas.read("f/f-001.svg")).into_iter().map(|(text, _)| text).collect::<Vec<String>>()
+    };
+    let few = chart("coupler = [2.5, 3, 3.5], rocker = [3, 3.5]");
+    let label = |text: &&String| text.ends_with("circuit 1") && text.split(", ").count() == 3;
+    assert_eq!(few.iter().filter(label).count(), 6, "{few:?}");
+    let many = chart("coupler = [2.5, 2.75, 3, 3.25, 3.5], rocker = [3, 3.25, 3.5, 3.75]");
+    let is_part = |text: &String| ["cou", "pler", "roc", "ker", "circ", "uit"].contains(&text.as_str());
+    assert!(!many.iter().any(is_part) && many.iter().any(|text| text == "coupler, rocker"), "{many:?}");
+    assert!(many.iter().any(|text| text.starts_with("all lines have their labels on paper of ")), "{many:?}");
 }
 
 #[test]

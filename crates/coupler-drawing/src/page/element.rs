@@ -237,6 +237,15 @@ impl TextLine {
         lines
     }
 
+    /// The words of the line in one line, if [`fit_width`](TextLine::fit_width) leaves them whole, or else in several.
+    pub fn wrap_unless_it_fits(&self, width: f64) -> Vec<String> {
+        let lines = match self.clone().fit_width(width).plain() == self.plain() {
+            true => vec![self.plain()],
+            false => self.wrap(width),
+        };
+        lines.into_iter().filter(|line| !line.is_empty()).collect()
+    }
+
     /// The line fitted to `width`: set smaller, down to two thirds but not below [`MIN_TEXT_SIZE`], and then
     /// truncated.
     pub fn fit_width(self, width: f64) -> TextLine {

@@ -8,8 +8,9 @@ use super::super::area::{Area, PlottersArea};
 use super::super::element::Drawing;
 use super::super::theme::Theme;
 use super::coinciding::shared_labels;
+use super::legend::Legend;
 use super::line::{ClippedLine, LineStyle};
-use super::line_labels::{self, LineLabel};
+use super::line_labels::{self, LineLabel, Space};
 use super::scale::{RangeEnds, Scale, ScaleOptions};
 use crate::chart::{AxisRange, PointSource, Quantity, Series, is_drawable};
 use crate::scene::{Anchor, Color, Group, Item, pixel};
@@ -49,6 +50,10 @@ pub(super) struct ChartFigure<'a> {
     /// The widths of the tick labels on the left and of the labels of lines on the right, in millimetres.
     left_margin: f64,
     right_margin: f64,
+    /// The legend below the chart, if the labels have no room beside it.
+    legend: Option<Legend>,
+    /// The number of labels that have no room.
+    pub omitted: usize,
 }
 
 impl<'a> ChartFigure<'a> {
@@ -71,6 +76,16 @@ impl<'a> ChartFigure<'a> {
         let right = whole.min(most);
         let right = without_names.as_ref().map_or(right, |(_, values)| label_width(values).clamp(right, 0.45 * area.x));
         let (head, shown_labels) = without_names.unwrap_or_else(|| (String::new(), labels.clone()));
+        let texts: Vec<&str> =
+            shown_labels.iter().flatten().map(String::as_str).filter(|text| !text.is_empty()).collect();
+        let symbols = page.heading.symbols;
+        let beside = Space { left: 0.0, height: frame_height(area, theme), width: right };
+        let legible = line_labels::legible_count((&head, &texts), beside, symbols, theme);
+        let legend = (legible < texts.len()).then(|| Legend::new((&head, &shown_labels), area, symbols, theme));
+        let legend = legend.filter(|legend| legend.shown >= legible);
+        let omitted = texts.len() - legend.as_ref().map_or(legible, |legend| legend.shown);
+        let right = if legend.is_some() { 0.0 } else { right };
+        let legend_height = legend.as_ref().map_or(0.0, |legend| legend.height);
         let tick_count = |length: f64, spacing: f64, most: usize| ((length / spacing) as usize).clamp(2, most);
         let scale_options = |quantity: &Quantity, ends, ticks| ScaleOptions {
             is_log: quantity.is_log,
@@ -86,7 +101,7 @@ impl<'a> ChartFigure<'a> {
             scale_options(
                 &chart.y[quantity_index],
                 RangeEnds::Round,
-                tick_count(area.y - 7.0 * theme.caption_size, 4.5 * theme.note_size, 8),
+                tick_count(area.y - legend_height - 7.0 * theme.caption_size, 4.5 * theme.note_size, 8),
             ),
         ];
         // A point that cannot be drawn on one axis does not extend the other. The x axis is that of all charts of the
@@ -113,7 +128,18 @@ impl<'a> ChartFigure<'a> {
         let ticks = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
         let left = ticks.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
         let left = left + 2.0 * tick_length(theme) + 0.2 * theme.note_size;
-        ChartFigure { page, quantity_index, labels, head, shown_labels, scales, left_margin: left, right_margin: right }
+        ChartFigure {
+            page,
+            quantity_index,
+            labels,
+            head,
+            shown_labels,
+            scales,
+            left_margin: left,
+            right_margin: right,
+            legend,
+            omitted,
+        }
     }
 
     /// The width of the tick labels on the left, in millimetres.
@@ -121,13 +147,23 @@ impl<'a> ChartFigure<'a> {
         self.left_margin
     }
 
+    /// The height of the legend, in millimetres; 0 if there is none.
+    pub fn legend_height(&self) -> f64 {
+        self.legend.as_ref().map_or(0.0, |legend| legend.height)
+    }
+
     fn quantity(&self) -> &'a Quantity {
         &self.page.chart.y[self.quantity_index]
     }
 
-    /// Draws the chart with a width for the tick labels on the left, in millimetres; the result is its data
+    /// Draws the chart with a width for the tick labels on the left and a height for the legend, in millimetres; the result is its data
     /// and what is explained on its page.
-    pub fn draw(&self, area: &PlottersArea, left: f64, theme: &Theme) -> (ChartData, LineFeatures) {
+    pub fn draw(
+        &self,
+        area: &PlottersArea,
+        [left, legend_height]: [f64; 2],
+        theme: &Theme,
+    ) -> (ChartData, LineFeatures) {
         let gap = 1.2 * theme.caption_size;
         let head = 2.6 * theme.caption_size;
         let foot = 2.0 * tick_length(theme) + 1.5 * theme.note_size + 3.0 * theme.caption_size;
@@ -139,7 +175,8 @@ impl<'a> ChartFigure<'a> {
         let mut builder = ChartBuilder::on(area);
         builder
             .margin_top(pixel::from_millimetres(head))
-            .margin_right(pixel::from_millimetres(gap + self.right_margin));
+            .margin_right(pixel::from_millimetres(gap + self.right_margin))
+            .margin_bottom(pixel::from_millimetres(legend_height));
         builder.y_label_area_size(pixel::from_millimetres(left)).x_label_area_size(pixel::from_millimetres(foot));
         // A canvas cannot fail.
         let mut context = builder.build_cartesian_2d(x.clone(), y.clone()).expect("recording a scene does not fail");
@@ -158,8 +195,8 @@ impl<'a> ChartFigure<'a> {
             .draw()
             .expect("recording a scene does not fail");
         let frame = context.plotting_area().strip_coord_spec();
-        self.draw_x_title(area, &frame, foot, theme);
-        let features = self.draw_lines(&frame, theme);
+        self.draw_x_title(area, &frame, foot + legend_height, theme);
+        let features = self.draw_lines(area, &frame, legend_height, theme);
         (axis_data(&frame, [x, y]), features)
     }
 
@@ -221,8 +258,8 @@ impl<'a> ChartFigure<'a> {
         self.page.series.iter().map(clipped).collect()
     }
 
-    /// Draws the lines, each as a group, and their labels next to the frame.
-    fn draw_lines(&self, frame: &PlottersArea, theme: &Theme) -> LineFeatures {
+    /// Draws the lines, each as a group, and their labels next to the frame or in a legend at the foot of the area.
+    fn draw_lines(&self, area: &PlottersArea, frame: &PlottersArea, legend_height: f64, theme: &Theme) -> LineFeatures {
         let lines = self.clipped_lines(frame);
         let span = frame_size(frame);
         let is_empty =
@@ -248,17 +285,16 @@ impl<'a> ChartFigure<'a> {
                 labels.push(LineLabel { text: text.as_str(), style, end_height: end.y });
             }
         }
-        let items = line_labels::label_items(
-            (&self.head, labels),
-            span.x,
-            span.y,
-            self.right_margin,
-            with_marks,
-            self.page.heading.symbols,
-            theme,
-        );
-        if !items.is_empty() {
-            frame.record(Drawing { class: "keys", title: String::new(), items });
+        let symbols = self.page.heading.symbols;
+        let keys = |items: Vec<Item>| Drawing { class: "keys", title: String::new(), items };
+        if let Some(legend) = &self.legend {
+            let size = area.size();
+            let corner = Point::new(0.0, size.y - legend_height);
+            area.record(keys(legend.items(&labels, (corner, size.x), with_marks, symbols)));
+        } else if !labels.is_empty() {
+            let space = Space { left: span.x, height: span.y, width: self.right_margin };
+            let items = line_labels::label_items((&self.head, labels), space, with_marks, symbols, theme);
+            frame.record(keys(items));
         }
         LineFeatures { has_marks: with_marks, has_gaps: lines.iter().any(|[line, _]| line.runs.len() > 1) }
     }

@@ -16,10 +16,10 @@ pub(super) struct LineLabel<'a> {
 }
 
 /// The distance of the baselines of labels, in ems.
-const SPACING: f64 = 1.35;
+pub(super) const SPACING: f64 = 1.35;
 
 /// The length of the sample of the line before its label.
-fn sample_length(theme: &Theme) -> f64 {
+pub(super) fn sample_length(theme: &Theme) -> f64 {
     2.6 * theme.note_size
 }
 
@@ -36,27 +36,28 @@ pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[
 
 /// Labels without the names of their values, which are the same in all, and these names; `None` if they are not.
 pub(super) fn without_names(labels: &[Option<String>]) -> Option<(String, Vec<Option<String>>)> {
-    let equations = |label: &String| -> Vec<(String, String)> {
-        let equation = |part: &str| match [" = ", " ≈ "].iter().find_map(|sign| part.split_once(sign)) {
-            Some((name, value)) => (name.to_owned(), value.to_owned()),
-            None => (String::new(), part.to_owned()),
+    /// Between the labels of lines that coincide.
+    const SEPARATORS: [&str; 2] = ["; ", " … "];
+    let equation = |part: &str| match [" = ", " ≈ "].iter().find_map(|sign| part.split_once(sign)) {
+        Some((name, value)) => (name.to_owned(), value.replace(" / ", "/")),
+        None => (String::new(), part.to_owned()),
+    };
+    let mut names: Option<Vec<String>> = None;
+    let mut without = |label: &str| -> Option<String> {
+        let equations: Vec<(String, String)> = label.split(", ").map(equation).collect();
+        let own: Vec<String> = equations.iter().map(|(name, _)| name.clone()).filter(|name| !name.is_empty()).collect();
+        let is_same = *names.get_or_insert_with(|| own.clone()) == own && !own.is_empty();
+        is_same.then(|| equations.into_iter().map(|(_, value)| value).collect::<Vec<_>>().join(", "))
+    };
+    let mut of_joined = |label: &String| -> Option<String> {
+        let Some(separator) = SEPARATORS.into_iter().find(|separator| label.contains(separator)) else {
+            return without(label);
         };
-        label.split(", ").map(equation).collect()
+        Some(label.split(separator).map(&mut without).collect::<Option<Vec<_>>>()?.join(separator))
     };
-    let names = |label: &String| equations(label).into_iter().map(|(name, _)| name).collect::<Vec<String>>();
-    let mut all = labels.iter().flatten().map(names);
-    let first = all.next()?;
-    let is_named = first.iter().any(|name| !name.is_empty());
-    // Of lines that coincide, labels are joined.
-    let is_joined = labels.iter().flatten().any(|label| label.contains([';', '…']));
-    if !is_named || is_joined || all.any(|names| names != first) {
-        return None;
-    }
-    let values = |label: &String| {
-        equations(label).into_iter().map(|(_, value)| value.replace(" / ", "/")).collect::<Vec<_>>().join(", ")
-    };
-    let names: Vec<String> = first.into_iter().filter(|name| !name.is_empty()).collect();
-    Some((names.join(", "), labels.iter().map(|label| label.as_ref().map(values)).collect()))
+    let values = labels.iter().map(|label| label.as_ref().map(&mut of_joined));
+    let values = values.map(|value| value.map_or(Some(None), |value| value.map(Some))).collect::<Option<Vec<_>>>()?;
+    Some((names?.join(", "), values))
 }
 
 /// Whether so many labels fit a height at their smallest size, a line each.
@@ -64,88 +65,136 @@ pub(super) fn have_room(count: usize, height: f64, theme: &Theme) -> bool {
     count as f64 * SPACING * MIN_TEXT_SIZE.min(theme.note_size) <= height
 }
 
+/// The space for labels next to a frame: its left edge is the right one of the frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Space {
+    pub left: f64,
+    pub height: f64,
+    pub width: f64,
+}
+
+/// The theme with texts that are smaller and smaller, and with those of the least size.
+pub(super) fn sizes(theme: &Theme) -> impl Iterator<Item = Theme> {
+    const PARTS: [f64; 7] = [1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7];
+    let least = MIN_TEXT_SIZE.min(theme.note_size);
+    PARTS.into_iter().map(move |part| Theme { note_size: (part * theme.note_size).max(least), ..theme.clone() })
+}
+
+pub(super) fn smallest(theme: &Theme) -> Theme {
+    Theme { note_size: MIN_TEXT_SIZE.min(theme.note_size), ..theme.clone() }
+}
+
+/// How labels are set in their space.
+struct Setting {
+    head: Vec<String>,
+    theme: Theme,
+    /// Each so many-th label is drawn.
+    step: usize,
+    /// Whether no label is wider than its space.
+    are_whole: bool,
+}
+
+impl Setting {
+    /// If not all fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the others.
+    fn new((head, labels): (&str, &[&str]), space: Space, symbols: &[String], theme: &Theme) -> Setting {
+        /// The space is that of the longest label, to rounding.
+        const ROUNDING: f64 = 1e-6;
+        let head = match head {
+            "" => Vec::new(),
+            head => label_text(head, Point::origin(), symbols, theme).wrap(space.right() - from(space, theme)),
+        };
+        let height = space.height - head_height(&head, theme);
+        let widths = |theme: &Theme| {
+            let widths = labels.iter().map(|label| label_text(label, Point::origin(), symbols, theme).text.width());
+            widths.fold(0.0, f64::max)
+        };
+        let are_whole = |theme: &Theme| widths(theme) <= space.right() - text_start(space, theme) + ROUNDING;
+        let fits = |theme: &Theme| labels.len() as f64 * SPACING * theme.note_size <= height && are_whole(theme);
+        let theme = sizes(theme).find(fits).unwrap_or_else(|| smallest(theme));
+        let most = ((height / (SPACING * theme.note_size)).floor() as usize).max(1);
+        let step = if labels.len() > most { labels.len().div_ceil(most.saturating_sub(1).max(1)) } else { 1 };
+        Setting { head, step, are_whole: are_whole(&theme), theme }
+    }
+}
+
+impl Space {
+    fn right(self) -> f64 {
+        self.left + self.width
+    }
+}
+
+/// The x at which the samples of lines begin, and their labels.
+fn from(space: Space, theme: &Theme) -> f64 {
+    space.left + 0.8 * theme.note_size
+}
+
+fn text_start(space: Space, theme: &Theme) -> f64 {
+    from(space, theme) + sample_length(theme) + 0.5 * theme.note_size
+}
+
+/// The height of the names of values above the labels.
+fn head_height(head: &[String], theme: &Theme) -> f64 {
+    if head.is_empty() { 0.0 } else { (head.len() as f64 + 0.4) * SPACING * theme.note_size }
+}
+
+/// The number of labels that are whole next to a frame; none if not all that are drawn are, or a word of the names above them is divided.
+pub(super) fn legible_count(texts: (&str, &[&str]), space: Space, symbols: &[String], theme: &Theme) -> usize {
+    let setting = Setting::new(texts, space, symbols, theme);
+    let (head, labels) = texts;
+    if setting.are_whole && setting.head.join(" ") == head { labels.len().div_ceil(setting.step) } else { 0 }
+}
+
+impl LineLabel<'_> {
+    /// The sample of its line from a point to the right.
+    pub fn sample_items(&self, at: Point, with_marks: bool, theme: &Theme) -> Vec<Item> {
+        let length = sample_length(theme);
+        let mut items = self.style.line_items(&[vec![at, Point::new(at.x + length, at.y)]], theme);
+        items.extend(with_marks.then(|| self.style.mark_item(Point::new(at.x + 0.5 * length, at.y), theme)));
+        items
+    }
+}
+
 /// The items of the labels: each as close as possible to the height of the end of its line, without overlaps, under `head`, which may be empty.
-///
-/// Labels that are too long are broken. If not all fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the
-/// others. `left` is the right edge of the frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
     (head, labels): (&str, Vec<LineLabel>),
-    left: f64,
-    height: f64,
-    width: f64,
+    space: Space,
     with_marks: bool,
     symbols: &[String],
     theme: &Theme,
 ) -> Vec<Item> {
-    let from = |theme: &Theme| left + 0.8 * theme.note_size;
-    let text_start = |theme: &Theme| from(theme) + sample_length(theme) + 0.5 * theme.note_size;
-    // A label that is too long for the space is broken into lines.
-    let lines = |label: &LineLabel, theme: &Theme| {
-        /// The space is that of the longest label, to rounding.
-        const ROUNDING: f64 = 1e-6;
-        let (line, space) = (label_text(label.text, Point::origin(), symbols, theme), left + width - text_start(theme));
-        if line.text.width() <= space + ROUNDING { vec![label.text.to_owned()] } else { line.wrap(space) }
-    };
-    // In lines; broken labels are apart from each other.
-    let spacing_of = |theme: &Theme| match labels.iter().map(|label| lines(label, theme).len()).max() {
-        Some(most @ 2..) => most as f64 + 0.4,
-        _ => 1.0,
-    };
-    let head_lines: Vec<String> = match head {
-        "" => Vec::new(),
-        head => label_text(head, Point::origin(), symbols, theme).wrap(left + width - from(theme)),
-    };
-    let top = if head.is_empty() { 0.0 } else { (head_lines.len() as f64 + 0.4) * SPACING * theme.note_size };
+    let texts: Vec<&str> = labels.iter().map(|label| label.text).collect();
+    let setting = Setting::new((head, &texts), space, symbols, theme);
+    let right = space.right();
     let mut items = Vec::new();
-    for (k, line) in head_lines.iter().enumerate() {
-        let at = Point::new(from(theme), (0.8 + SPACING * k as f64) * theme.note_size);
-        items.push(Item::Text(label_text(line, at, symbols, theme).fit_width(left + width - at.x).text));
+    for (k, line) in setting.head.iter().enumerate() {
+        let at = Point::new(from(space, theme), (0.8 + SPACING * k as f64) * theme.note_size);
+        items.push(Item::Text(label_text(line, at, symbols, theme).fit_width(right - at.x).text));
     }
-    let height = height - top;
-    let least = MIN_TEXT_SIZE.min(theme.note_size);
-    let with_size = |part: f64| Theme { note_size: (part * theme.note_size).max(least), ..theme.clone() };
-    let count = labels.len();
-    let needed = |theme: &Theme| count as f64 * spacing_of(theme) * SPACING * theme.note_size;
-    let theme = [1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7].map(with_size).into_iter().find(|theme| needed(theme) <= height);
-    let theme = &theme.unwrap_or_else(|| with_size(0.0));
+    let top = head_height(&setting.head, theme);
+    let height = space.height - top;
+    let theme = &setting.theme;
     let leading = SPACING * theme.note_size;
-    let spacing = leading * spacing_of(theme);
-    // Above and below the middle of a label are the other lines of the longest one.
-    let half = 0.5 * (spacing_of(theme).floor() - 1.0) * leading;
-    let most = ((height / spacing).floor() as usize).max(1);
-    let mut drawn: Vec<LineLabel> = if count > most {
-        labels.into_iter().step_by(count.div_ceil(most.saturating_sub(1).max(1))).collect()
-    } else {
-        labels
-    };
+    let count = labels.len();
+    let mut drawn: Vec<LineLabel> = labels.into_iter().step_by(setting.step).collect();
     drawn.sort_by(|a, b| a.end_height.total_cmp(&b.end_height));
     let omitted = count - drawn.len();
     let foot = if omitted > 0 { height - leading } else { height };
-    let ends: Vec<f64> = drawn.iter().map(|label| label.end_height - top - half).collect();
-    let heights = spread_heights(&ends, spacing, foot - 2.0 * half).into_iter().map(|height| height + half);
-    let (from, text) = (from(theme), text_start(theme));
+    let ends: Vec<f64> = drawn.iter().map(|label| label.end_height - top).collect();
+    let heights = spread_heights(&ends, leading, foot);
+    let text = text_start(space, theme);
     // From the middle of a letter down to its baseline.
     let drop = 0.35 * theme.note_size;
-    for (label, y) in drawn.iter().zip(heights.map(|height| height + top)) {
-        items.extend(
-            label.style.line_items(&[vec![Point::new(from, y), Point::new(from + sample_length(theme), y)]], theme),
-        );
-        if with_marks {
-            items.push(label.style.mark_item(Point::new(from + sample_length(theme) / 2.0, y), theme));
-        }
-        let lines = lines(label, theme);
-        for (k, line) in lines.iter().enumerate() {
-            let below = (k as f64 - 0.5 * (lines.len() - 1) as f64) * leading;
-            let line = label_text(line, Point::new(text, y + drop + below), symbols, theme);
-            items.push(Item::Text(line.fit_width(left + width - text).text));
-        }
+    for (label, y) in drawn.iter().zip(heights.into_iter().map(|height| height + top)) {
+        items.extend(label.sample_items(Point::new(from(space, theme), y), with_marks, theme));
+        let line = label_text(label.text, Point::new(text, y + drop), symbols, theme);
+        items.push(Item::Text(line.fit_width(right - text).text));
     }
     if omitted > 0 {
         let at = Point::new(text, top + height + drop);
         let more = |words: &str| theme.text_line(words, at, Anchor::Start, theme.note_size, theme.grey);
         let whole = more(&format!("and {omitted} more"));
-        let space = left + width - text;
-        items.push(Item::Text(if whole.text.width() <= space { whole } else { more(&format!("+ {omitted}")) }.text));
+        let is_short = whole.text.width() > right - text;
+        items.push(Item::Text(if is_short { more(&format!("+ {omitted}")) } else { whole }.text));
     }
     items
 }
@@ -195,7 +244,10 @@ mod tests {
         let (names, values) =
             without_names(&labels(&["p = 2, k = 1 / 3, circuit 1", "p = 3, k ≈ 1.41, circuit 2"])).unwrap();
         assert_eq!((names.as_str(), values), ("p, k", labels(&["2, 1/3, circuit 1", "3, 1.41, circuit 2"])));
-        for other in [&["p = 2", "k = 2"][..], &["p = 2; p = 3", "p = 4"], &["circuit 1", "circuit 2"], &[]] {
+        let joined = labels(&["p = 2, circuit 1 … p = 3, circuit 2 (4 lines)", "p = 4; p = 5", "p = 6"]);
+        let values = labels(&["2, circuit 1 … 3, circuit 2 (4 lines)", "4; 5", "6"]);
+        assert_eq!(without_names(&joined), Some(("p".to_owned(), values)));
+        for other in [&["p = 2", "k = 2"][..], &["p = 2; k = 3", "p = 4"], &["circuit 1", "circuit 2"], &[]] {
             assert_eq!(without_names(&labels(other)), None, "{other:?}");
         }
     }

@@ -4,6 +4,7 @@
 
 mod coinciding;
 mod figure;
+mod legend;
 mod line;
 mod line_labels;
 mod number;
@@ -12,11 +13,11 @@ mod scale;
 use super::area::{self, Area, PlottersArea};
 use super::empty_scene::empty_scene;
 use super::figure::Figure;
-use super::heading::margins;
+use super::heading::{self, margins};
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{ChartPage, Options, chart_grid};
+use super::{ChartPage, Options, Paper, chart_grid};
 use super::{key_division, key_drawing};
 use crate::chart::PointSource;
 use crate::scene::{Group, Scene};
@@ -44,25 +45,48 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &T
     // What the lines have is known after they are drawn.
     let all_features = LineFeatures { has_marks: page.chart.point_source == PointSource::Curves, has_gaps: true };
     let key = page.key.and_then(|(key, panel)| Some((key, Figure::from_panel(panel)?)));
-    let foot = |features, note: Option<&str>| {
-        let mut symbols =
-            key.as_ref().map_or(Vec::new(), |(_, figure)| page_symbols(figure, features, note.is_none(), theme));
-        symbols.extend(note.map(|note| Symbol { mark: Mark::Letter("…"), meaning: note.to_owned() }));
+    let foot = |features, notes: &[String], has_key: bool| {
+        let mut symbols = key.as_ref().map_or(Vec::new(), |(_, figure)| page_symbols(figure, features, has_key, theme));
+        symbols.extend(notes.iter().map(|note| Symbol { mark: Mark::Letter("…"), meaning: note.clone() }));
         symbols::at_foot(size, &page.heading, &symbols, theme)
     };
-    let mut charts = above(size.y - bottom);
-    let mut note = None;
-    if let Some((key, figure)) = &key {
-        let contents = above(foot(all_features, None).1);
-        let grid = chart_grid::beside_key(page.layout.grid());
-        if key_division::has_room(contents.size, grid, Some(key), theme) {
-            let (beside, rect) = key_division::divide(contents, grid, key, theme);
-            charts = beside;
-            key_drawing::draw(&area::whole_page(scene), rect, key, &[figure], theme);
-        } else {
-            note = Some(key_division::left_out_note(contents.size, grid, key, options));
-            charts = above(foot(all_features, note.as_deref()).1);
+    let grid = chart_grid::beside_key(page.layout.grid());
+    // The charts, and the key, which may have no room, in contents of a size.
+    let divided = |contents: Rect, theme: &Theme| match page.key {
+        Some((key, _)) if key_division::has_room(contents.size, grid, Some(key), theme) => {
+            let (charts, key) = key_division::divide(contents, grid, key, theme);
+            (charts, Some(key))
         }
+        _ => (contents, None),
+    };
+    let omitted_in = |contents: Rect, theme: &Theme| omitted_labels(page, divided(contents, theme).0.size, theme);
+    let mut notes = Vec::new();
+    let mut contents = if key.is_some() { above(foot(all_features, &notes, true).1) } else { above(size.y - bottom) };
+    let has_key = divided(contents, theme).1.is_some();
+    if let (Some((key, _)), false) = (&key, has_key) {
+        notes.push(key_division::left_out_note(contents.size, grid, key, options));
+    }
+    if omitted_in(contents, theme) > 0 {
+        let taken = heading::contents_size(options.paper, theme) - contents.size;
+        let has_room = |paper: &Paper| {
+            let theme = &options.theme.for_paper(*paper);
+            let size = heading::contents_size(*paper, theme) - taken;
+            omitted_in(Rect { corner: Point::origin(), size }, theme) == 0
+        };
+        notes.extend(
+            options
+                .paper
+                .larger()
+                .find(has_room)
+                .map(|paper| format!("all lines have their labels on paper of {} × {} mm", paper.width, paper.height)),
+        );
+    }
+    if !notes.is_empty() {
+        contents = above(foot(all_features, &notes, has_key).1);
+    }
+    let (charts, key_rect) = divided(contents, theme);
+    if let (Some((key, figure)), Some(rect)) = (&key, key_rect) {
+        key_drawing::draw(&area::whole_page(scene), rect, key, &[figure], theme);
     }
     let far = charts.corner + charts.size;
     let margins = [charts.corner.y, size.y - far.y, charts.corner.x, size.x - far.x];
@@ -76,9 +100,10 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &T
             let theme = theme.for_panel_size(area.size());
             let figures: Vec<ChartFigure> =
                 page.quantity_range.clone().map(|index| ChartFigure::new(page, index, area.size(), &theme)).collect();
-            // The frames of all charts of a page have the same margin.
-            let margin = figures.iter().map(ChartFigure::left_margin).fold(0.0, f64::max);
-            let (data, of_chart) = figures[k].draw(area, margin, &theme);
+            // The frames of all charts of a page have the same margins.
+            let margins = figures.iter().map(|figure| [figure.left_margin(), figure.legend_height()]);
+            let margins = margins.fold([0.0, 0.0], |[a, b]: [f64; 2], [left, legend]| [a.max(left), b.max(legend)]);
+            let (data, of_chart) = figures[k].draw(area, margins, &theme);
             features = features.or(of_chart);
             data
         };
@@ -88,9 +113,18 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &T
         let description = format!("Chart: {title}");
         scene.group_items(first_item, Group { id, class: "chart", title, description, data, ..Group::default() });
     }
-    for (at, line) in foot(features, note.as_deref()).0 {
+    for (at, line) in foot(features, &notes, has_key).0 {
         symbols::draw(&area::whole_page(scene), &line, at, theme);
     }
+}
+
+/// The greatest number of lines of a chart without labels, for which charts of a size have no room.
+fn omitted_labels(page: &ChartPage, charts: Vector, theme: &Theme) -> usize {
+    let [columns, rows] = page.layout.grid();
+    let size = Vector::new(charts.x / columns as f64, charts.y / rows as f64);
+    let theme = &theme.for_panel_size(size);
+    let omitted = page.quantity_range.clone().map(|index| ChartFigure::new(page, index, size, theme).omitted);
+    omitted.max().unwrap_or(0)
 }
 
 /// The symbols of the key with a figure, if it is drawn, and of the lines of the charts.
