@@ -2,7 +2,7 @@
 //! each list, the entries of the index. It is gathered while the tables of the family are written, if they are; the curves are
 //! kept as measured then, as far as there is memory, so that the pages of the book are drawn without measuring them again.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::manifest::{BookPlan, ListCriteria, PlannedFamily};
 use crate::pipeline::Captions;
@@ -48,6 +48,8 @@ pub(super) struct Candidate {
     /// The number of pages of the cell before that of the curve.
     #[cfg_attr(not(feature = "pdf"), expect(dead_code, reason = "only books have pages in this order"))]
     pub page_offset: usize,
+    /// What its linkage is recognized by, if it is listed once whatever its points.
+    pub linkage: Option<u64>,
     pub curve: MeasuredCurve,
 }
 
@@ -60,9 +62,11 @@ impl Candidate {
     }
 }
 
-/// Sorts the candidates of a list, and keeps the first `count`.
+/// Sorts the candidates of a list, and keeps the first `count`; of a linkage that is listed once only the first.
 pub(super) fn keep_first(candidates: &mut Vec<Candidate>, count: usize) {
     candidates.sort_by(Candidate::order);
+    let mut seen = HashSet::new();
+    candidates.retain(|candidate| candidate.linkage.is_none_or(|linkage| seen.insert((candidate.family, linkage))));
     candidates.truncate(count);
 }
 
@@ -83,13 +87,27 @@ impl<'a> Surveyor<'a> {
         let offset = |k: usize| offsets.get(k).copied().unwrap_or(0);
         let index_entry = self.book.index.then(|| {
             let [caption, _] = captions.of_cell(&solved.cell, solved.first_curve_values());
-            IndexEntry::from_solved_cell(solved, &caption, offset)
+            IndexEntry::from_solved_cell((solved, self.planned.layout), &caption, offset)
         });
         let candidates = |list: &crate::manifest::PlannedList| {
             let Some(Some(criteria)) = list.criteria.get(self.number) else { return Vec::new() };
+            let is_of_linkage = criteria.is_of_linkage(&self.planned.family);
             let candidate = |(k, curve): (usize, &MeasuredCurve)| {
+                // The path of a slider on its guide is straight by construction.
+                let is_trivial = !list.is_given && solved.linkage.slider_line(curve.joint).is_some();
+                if is_trivial && !is_of_linkage {
+                    return None;
+                }
                 let key = list_key(&solved.cell, &curve.values, criteria)?;
-                Some(Candidate { key, family: self.number, cell, page_offset: offset(k), curve: curve.clone() })
+                let linkage = is_of_linkage.then(|| book::linkage_identity(solved, curve));
+                Some(Candidate {
+                    key,
+                    family: self.number,
+                    cell,
+                    page_offset: offset(k),
+                    linkage,
+                    curve: curve.clone(),
+                })
             };
             let mut found: Vec<Candidate> = solved.curves.iter().enumerate().filter_map(candidate).collect();
             keep_first(&mut found, list.per_geometry);

@@ -113,6 +113,13 @@ fn portions_with_a_mirror_image_are_there_twice_if_that_takes_as_much_input() {
     }
 }
 
+/// A portion whose mirror image is partly on it is one with that.
+#[test]
+fn portions_that_overlap_their_mirror_images_are_one() {
+    let [svg, _] = rendered("[[family]]\nid = \"f\"\nlinkage = \"evans\"\ncases = [{ p = 3, s = 4.1, a = 4.1 }]\n");
+    assert!(svg.contains("straight ") && !svg.contains("also mirrored") && !svg.contains(", twice"), "{svg}");
+}
+
 #[test]
 fn linkages_that_repeat_after_several_turns_say_so() {
     assert!(of_catalogue("geared-five-bar")[0].contains("repeats after 2 turns"));

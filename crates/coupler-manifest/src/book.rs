@@ -5,6 +5,7 @@ use crate::names::{read_filter, states_direction, uses_text_measure};
 use crate::plan::{BookPlan, FindingCharts, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
 use coupler_curves::expression::{Caption, CompiledExpression, Dimension, Expression, Kind, Scope};
 use coupler_curves::family::Family;
+use coupler_curves::linkage::OutputLink;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 use coupler_drawing::page::book::Emphasis;
@@ -242,12 +243,24 @@ static DEFAULT_LISTS: [DefaultList; 6] = [
                black, with transmission angles of 15° and more.",
         filter: "time_ratio >= 1.1 and mu_worst_deg >= 15",
         sort: "-time_ratio",
-        caption: "time ratio {time_ratio:.3} · output from {output_min:.2} to {output_max:.2} · least μ {mu_worst_deg:.1}°",
+        caption: "time ratio {time_ratio:.3} · output from {output_min:.2}[unit] to {output_max:.2}[unit] · least μ {mu_worst_deg:.1}°",
         columns: &[],
         count: DEFAULT_COUNT,
         per_geometry: DEFAULT_PER_GEOMETRY,
     },
 ];
+
+/// What is in the captions of default lists in place of the unit of the output.
+const OUTPUT_UNIT: &str = "[unit]";
+
+/// The unit of the output of a family, as written after a number: degrees of a link that turns, that of its lengths of a slider.
+fn output_unit(planned: &PlannedFamily) -> String {
+    let output = planned.family.template.structure().ok().and_then(|linkage| linkage.output());
+    match output.is_some_and(OutputLink::is_slider) {
+        true => planned.family.unit.map_or(String::new(), |unit| format!(" {}", unit.symbol())),
+        false => "°".to_owned(),
+    }
+}
 
 /// The title of the chapter that a book has by default.
 const CHANGE_POINTS: &str = "change points";
@@ -512,7 +525,7 @@ fn default_list(default: &DefaultList, families: &[PlannedFamily]) -> Option<Pla
         let criteria = ListCriteria {
             filter: Some(filter.compile(&scope, Kind::Boolean).ok()?),
             sort: sort.compile(&scope, Kind::Number).ok()?,
-            caption: Caption::parse(default.caption).ok()?,
+            caption: Caption::parse(&default.caption.replace(OUTPUT_UNIT, &output_unit(planned))).ok()?,
             columns: default.columns.iter().map(|column| Caption::parse(column).ok()).collect::<Option<_>>()?,
         };
         applies(planned, &criteria).then_some(criteria)

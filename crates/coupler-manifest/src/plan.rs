@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use coupler_curves::expression::{Caption, CompiledExpression};
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{quoted, toml_number};
+use coupler_curves::measure::MeasureSet;
 use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
@@ -136,6 +137,19 @@ pub struct ListCriteria {
     pub caption: Caption,
     /// What is in the columns, each after its head and a colon.
     pub columns: Vec<Caption>,
+}
+
+impl ListCriteria {
+    /// Whether all of it is the same for all curves of a linkage on one circuit, whatever point traces them.
+    pub fn is_of_linkage(&self, family: &Family) -> bool {
+        let expressions = self.filter.iter().chain([&self.sort]);
+        let of_expressions = expressions.map(|expression| family.measures_in(expression));
+        let said: Vec<&String> = (self.columns.iter().chain([&self.caption]))
+            .flat_map(|caption| caption.expressions().flat_map(|(expression, _)| expression.names()))
+            .collect();
+        let of_captions = MeasureSet::of(|measure| said.iter().any(|name| **name == measure.name));
+        of_expressions.chain([of_captions]).all(|measures| (measures & MeasureSet::OF_PATHS).is_empty())
+    }
 }
 
 /// A family and how it is rendered.

@@ -12,8 +12,8 @@ use crate::pipeline::{Composer, curves_by_page};
 use coupler_curves::expression::displayed_name;
 use coupler_curves::family::{Axis, ParameterSpace};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, FindingCurve, Miniature, ScaleBar};
+use coupler_drawing::page::{Layout, circuit_words};
 
 /// The most cells in the charts of a family: a chart of more is not for eyes.
 const MAX_CELLS: usize = 6000;
@@ -83,25 +83,35 @@ pub(super) fn finding_charts(
         planned.family.equation(axes[axis].slot, value).to_string()
     };
     let shown = note(family, drawn.values());
-    // The charts of a value need the ranges of the others, or else numbers, if they are divided.
+    // The charts of a value need the ranges of the others if they are divided, or else what they have of all cells.
     let is_divided = pages.keys().any(|[_, row, column]| row + column > 0);
-    let mut part = 0;
+    let is_in_order = cells.values().is_sorted();
     let chart = |(page, placed): ([usize; 3], PlacedCells)| {
-        part += 1;
         let value = if let [_, _, axis] = varying[..] { Some(label(axis, page[0])) } else { None };
         let ranges = grid.part_ranges(page).into_iter().map(|(axis, indices)| {
             let values = &axes[axis].values;
             let values = indices.filter_map(|k| values.get(k));
             planned.family.equation_of_range(axes[axis].slot, values).to_string()
         });
-        let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).collect();
-        let number = (is_divided && varying.len() < 2).then(|| format!("({part})"));
+        // What it has of cells that follow one another.
+        let sequence = || match varying[..] {
+            [axis] => {
+                let values = placed.iter().filter_map(|(cell, _)| axes[axis].values.get(grid.index(*cell, axis)));
+                planned.family.equation_of_range(axes[axis].slot, values).to_string()
+            }
+            _ if is_in_order => {
+                let first = placed.iter().filter_map(|(cell, _)| cells.get(cell).copied());
+                let drawn = placed.iter().filter_map(|(cell, _)| drawn.get(cell));
+                format_range("page", first.chain(drawn.flat_map(|(pages, _)| pages).map(|(_, page)| *page)))
+            }
+            _ => format_range("figure", placed.iter().map(|(cell, _)| cell + 1)),
+        };
+        let sequence = (is_divided && varying.len() < 2).then(sequence);
+        let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).chain(sequence).collect();
         let dimensions = Some(parts.join(", ")).filter(|said| !said.is_empty());
-        // A number alone says nothing in the contents.
-        let family = (names_family || number.is_some()).then(|| planned.family.title.clone());
+        // Pages alone say nothing in the contents.
+        let family = (names_family || is_divided && has_captions).then(|| planned.family.title.clone());
         let title = family.into_iter().chain(dimensions).collect::<Vec<_>>().join(": ");
-        let title =
-            [Some(title).filter(|title| !title.is_empty()), number].into_iter().flatten().collect::<Vec<_>>().join(" ");
         let (rows, columns) = grid.labels(page, &label);
         let cell = |(cell, place): (usize, [usize; 2])| {
             let (label, varying) = match varying[..] {
@@ -114,12 +124,19 @@ pub(super) fn finding_charts(
                 _ => Default::default(),
             };
             let (pages, bar) = drawn.remove(&cell).unwrap_or((Vec::new(), ScaleBar::Round(None)));
-            FindingCell { place, label, varying, pages, bar }
+            let figure = planned.layout.figure_number(&planned.family.cell(cell));
+            FindingCell { place, label, varying, pages, figure, bar }
         };
         let cells = placed.into_iter().map(cell).collect();
         FindingChart { title, note: shown.clone(), symbols: planned.family.names.clone(), columns, rows, cells }
     };
     Ok(pages.into_iter().map(chart).collect())
+}
+
+/// The least and the greatest of some numbers, as in "pages 1–5" or "page 3".
+fn format_range(noun: &str, numbers: impl Iterator<Item = usize>) -> String {
+    let [first, last] = numbers.fold([usize::MAX, 0], |[least, most], k| [least.min(k), most.max(k)]);
+    if first >= last { format!("{noun} {last}") } else { format!("{noun}s {first}–{last}") }
 }
 
 /// How the cells of a grid are distributed over charts.
@@ -203,7 +220,13 @@ fn note<'d>(family: &BookFamily, mut drawn: impl Iterator<Item = &'d DrawnCell> 
         true => "the bar above them is its crank",
         false => "the bar above them is as long as it says",
     };
-    format!("{curves}, those of a linkage at one scale: {bar}. Below them the number of the page.")
+    format!(
+        "{curves}, those of a linkage at one scale: {bar}. Below them {}.",
+        match planned.layout.cells_per_page() {
+            1 => "the page",
+            _ => "the page and the figure",
+        }
+    )
 }
 
 /// The drawings of cells: all curves of each page.
@@ -238,10 +261,6 @@ fn draw_cells(
 
 /// What traces a curve: on coupler grids the number of its point, otherwise the joint and the circuit, as far as there are several.
 fn curve_label(layout: Layout, solved: &SolvedCell, curve: &MeasuredCurve) -> String {
-    let joint = match layout {
-        Layout::CouplerGrid => Some(curve.trace.to_string()),
-        _ => (solved.linkage.traced.len() > 1).then(|| displayed_name(&solved.linkage.joints[curve.joint].name)),
-    };
-    let circuit = (solved.motion.circuits.len() > 1).then(|| format!("circuit {}", curve.circuit));
-    joint.into_iter().chain(circuit).collect::<Vec<_>>().join(", ")
+    let joint = layout.curve_name(&solved.linkage, curve.trace).map(|[_, name]| name);
+    joint.into_iter().chain(circuit_words(solved, curve)).collect::<Vec<_>>().join(", ")
 }

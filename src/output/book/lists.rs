@@ -10,8 +10,8 @@ use super::part::{BookFamily, CellPlaces, FamilyPart, find_cells};
 use crate::manifest::{Plan, PlannedList};
 use coupler_curves::expression::Caption;
 use coupler_curves::solve::Solver;
-use coupler_drawing::page::Layout;
-use coupler_drawing::page::book::{CurveList, Emphasis, ListEntry, Miniature};
+use coupler_drawing::page::book::{CurveList, ListEntry, Miniature};
+use coupler_drawing::page::circuit_words;
 
 /// The lists of a book, without those that have no entry.
 pub(super) fn curve_lists(
@@ -40,20 +40,24 @@ pub(super) fn curve_lists(
         let entries: Vec<ListEntry> = entries.into_iter().flatten().collect();
         if !entries.is_empty() {
             let columns = list.columns.clone();
-            lists.push(CurveList { title: list.title.clone(), note: note(list), columns, entries });
+            lists.push(CurveList { title: list.title.clone(), note: note(list, families), columns, entries });
         }
     }
     Ok(lists)
 }
 
 /// What is listed, and how many curves of a linkage.
-fn note(list: &PlannedList) -> String {
+fn note(list: &PlannedList, families: &[BookFamily]) -> String {
     const WORDS: [&str; 8] = ["two", "three", "four", "five", "six", "seven", "eight", "nine"];
     if list.per_geometry >= list.count {
         return [list.note.as_str(), &format!("At most {} in all.", list.count)].join(" ").trim().to_owned();
     }
+    let is_of_linkages = families.iter().all(|family| {
+        let criteria = list.criteria.get(family.number).and_then(Option::as_ref);
+        criteria.is_none_or(|criteria| criteria.is_of_linkage(&family.pipeline.composer.planned.family))
+    });
     let most = match list.per_geometry {
-        1 if list.emphasis == Emphasis::Limits => "Each linkage once".to_owned(),
+        _ if is_of_linkages => "Each linkage once".to_owned(),
         1 => "The best curve of each linkage".to_owned(),
         most => {
             let most = WORDS.get(most - 2).map_or_else(|| most.to_string(), |word| (*word).to_owned());
@@ -95,23 +99,15 @@ fn list_entry(
     if let Some(lift) = drawing.dwell_lift.filter(|_| !is_table) {
         lines.insert(lines.len().min(2), format!("lift {lift:.3}"));
     }
-    let is_grid = planned.layout == Layout::CouplerGrid;
-    // Pages with several figures number them.
-    let figure = (!is_grid && planned.layout.cells_per_page() > 1).then_some(solved.cell.number);
-    // The limits of the output are those of the linkage.
-    let is_of_linkage = list.emphasis == Emphasis::Limits;
-    let has_many = solved.linkage.traced.len() > 1 && !is_of_linkage;
-    let has_circuits = solved.motion.circuits.len() > 1;
-    let which = has_many.then(|| format!("{} {}", planned.layout.curve_noun(), curve.trace));
-    let circuit = has_circuits.then(|| format!("circuit {}", curve.circuit));
-    let which: Vec<String> = which.into_iter().chain(circuit).collect();
+    let is_of_linkage = candidate.linkage.is_some();
+    let which = if is_of_linkage { circuit_words(&solved, curve) } else { planned.layout.curve_words(&solved, curve) };
     Some(ListEntry {
         drawing: (!is_table).then_some(drawing),
         chapter,
         caption,
-        curve: which.join(", "),
+        curve: which.unwrap_or_default(),
         lines,
-        figure,
+        figure: planned.layout.figure_number(&solved.cell),
         page: first_page + if is_of_linkage { 0 } else { candidate.page_offset },
     })
 }

@@ -150,7 +150,6 @@ impl<'a> FamilyPart<'a> {
         Chapter {
             title: &self.title,
             symbols: &family.names,
-            curve_noun: planned.layout.curve_noun(),
             curve_count: is_counted.then(|| self.positions.iter().map(count).sum()),
             page_count: self.page_count(),
             sections: self.sections(&cells),

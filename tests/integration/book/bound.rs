@@ -75,7 +75,6 @@ fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
         Chapter {
             title: &planned.family.title,
             symbols: &planned.family.names,
-            curve_noun: "curve",
             curve_count: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
             page_count: solved[k].len().div_ceil(cells_per_page),
             sections: cells.iter().map(|cell| (cell.clone(), cell.page)).collect(),
@@ -95,7 +94,7 @@ pub(super) fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec
             let panel = |solved: &'_ SolvedCell| caption(plan, k, solved);
             let captions: Vec<String> = group.iter().map(panel).collect();
             let entry = |(s, caption): (&SolvedCell, &String)| {
-                IndexEntry::from_solved_cell(s, caption, |_| 0).placed(k, number)
+                IndexEntry::from_solved_cell((s, planned.layout), caption, |_| 0).placed(k, number)
             };
             entries.extend(group.iter().zip(&captions).map(entry));
             scenes.push(page::compose_panels(&panel_page(plan, k, at + 1, group), &plan.page));
@@ -234,7 +233,7 @@ fn every_page_of_an_atlas_is_in_one_volume() {
 /// A chapter whose contents list its cells one by one.
 fn chapter(title: &str, pages: usize, cells: Vec<CellEntry>) -> Chapter<'_> {
     let sections = cells.iter().map(|cell| (cell.clone(), cell.page)).collect();
-    Chapter { title, symbols: &[], curve_noun: "curve", curve_count: None, page_count: pages, cells, sections }
+    Chapter { title, symbols: &[], curve_count: None, page_count: pages, cells, sections }
 }
 
 fn options(paper: Paper) -> Options {

@@ -4,6 +4,7 @@ mod bound;
 mod codes;
 mod designer;
 pub mod reader;
+mod references;
 mod sheets;
 mod tags;
 

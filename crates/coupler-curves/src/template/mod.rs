@@ -193,6 +193,14 @@ impl Template {
         driven.or(by_closure).unwrap_or_else(|| "the angle of the crank".to_owned())
     }
 
+    /// The names of its traced joints, that of a grid once for each of its points.
+    pub fn traced_names(&self) -> impl Iterator<Item = &str> + Clone {
+        self.traced.iter().flat_map(|&joint| {
+            let JointTemplate { name, kind, .. } = &self.joints[joint];
+            std::iter::repeat_n(name.as_str(), kind.point_count())
+        })
+    }
+
     /// The number of curves that its traced joints trace on one circuit.
     pub fn curve_count(&self) -> usize {
         self.traced.iter().map(|&joint| self.joints[joint].kind.point_count()).sum()

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::parameters::ordered_places;
 use super::path::{LinePath, union};
 use super::refinement::{ForEachInterval, Path, Refinement};
-use super::{Chart, ChartSample, PointSource, path_name};
+use super::{Chart, ChartSample, PointSource, curve_name};
 
 use coupler_curves::family::Family;
 use coupler_curves::text::round_to_six_digits;
@@ -250,15 +250,6 @@ impl<'a> ChartBuilder<'a> {
         has_one_line.then(|| ordered_places(&self.groups)).flatten()
     }
 
-    /// What the curve of the n-th traced joint, from 1, is called.
-    fn path_name(&self, trace: usize) -> String {
-        let template = &self.family.template;
-        let traced = template.traced.iter().map(|&joint| template.joints[joint].name.as_str());
-        let name = traced.clone().nth(trace - 1);
-        let path = name.and_then(|name| path_name(traced, name));
-        path.unwrap_or_else(|| format!("trace {trace}"))
-    }
-
     /// The label of each line, with only those values that are not the same for all lines.
     fn labels(&self) -> Vec<String> {
         let keys: Vec<LineKey> = self.lines.keys().copied().collect();
@@ -277,7 +268,7 @@ impl<'a> ChartBuilder<'a> {
             };
             let mut parts: Vec<String> = names.iter().map(value).collect();
             parts.extend(needs_cell.then(|| format!("no. {cell}")));
-            parts.extend(traces.then(|| self.path_name(trace)));
+            parts.extend(traces.then(|| curve_name(self.family.template.traced_names(), trace).join(" ")));
             parts.extend(circuits.then(|| format!("circuit {circuit}")));
             parts.join(", ")
         };

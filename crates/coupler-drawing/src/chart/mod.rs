@@ -21,7 +21,7 @@ pub use path::LinePath;
 pub use refinement::{ForEachInterval, Interval};
 pub use sample::ChartSample;
 pub use scope::{is_per_sample, scope};
-pub(crate) use words::path_name;
+pub(crate) use words::{curve_name, point_name};
 pub use words::{title, unit};
 
 use coupler_curves::expression::CompiledExpression;

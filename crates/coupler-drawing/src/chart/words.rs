@@ -60,9 +60,20 @@ pub fn parameter_unit(parameter: &Parameter) -> &'static str {
     }
 }
 
-/// What the path of a traced joint is called, if no other traced joint has its name: a grid of points has one for all.
-pub(crate) fn path_name<'n>(traced: impl Iterator<Item = &'n str>, name: &str) -> Option<String> {
-    (traced.filter(|other| *other == name).count() == 1).then(|| format!("path of {}", displayed_name(name)))
+/// What the curve of the n-th traced joint, from 1, is called, in two parts: by the joint, "path of" and its name; or by the number of its point,
+/// "point" and that, if another traced joint has its name, as all points of a grid have.
+pub(crate) fn curve_name<'n>(mut traced: impl Iterator<Item = &'n str> + Clone, trace: usize) -> [String; 2] {
+    let all = traced.clone();
+    let name = traced.nth(trace.saturating_sub(1)).unwrap_or_default();
+    match all.filter(|other| *other == name).count() {
+        1 => ["path of".to_owned(), displayed_name(name)],
+        _ => point_name(trace),
+    }
+}
+
+/// What the curve of a point with a number is called, in the same two parts.
+pub(crate) fn point_name(trace: usize) -> [String; 2] {
+    ["point".to_owned(), trace.to_string()]
 }
 
 #[cfg(test)]

@@ -431,20 +431,23 @@ impl<'a> Figure<'a> {
             let curves: Vec<&MeasuredCurve> = curves.collect();
             let Some(first) = curves.first() else { break };
             // In the order of the curves, so that M2 is before M10.
-            let mut names: Vec<String> = Vec::new();
+            let mut names: Vec<[String; 2]> = Vec::new();
             for name in curves.iter().filter_map(|curve| marks::path_name(solved, curve)) {
                 if !names.contains(&name) {
                     names.push(name);
                 }
             }
-            let mut numbers: Vec<usize> = curves.iter().map(|curve| self.style_index(curve) + 1).collect();
-            numbers.dedup();
-            let noun = if solved.linkage.traced.len() > 1 { "traced point" } else { "circuit" };
-            let what = match numbers.len() {
-                _ if !names.is_empty() => names.join(", "),
-                1 if style == 0 => continue,
-                1 => format!("{ordinal} {noun}"),
-                _ => format!("{noun}s {}", numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+            let mut circuits: Vec<usize> = curves.iter().map(|curve| curve.circuit).collect();
+            circuits.dedup();
+            let numbered = |nouns: &str, numbers: Vec<String>| format!("{nouns} {}", numbers.join(", "));
+            let what = match (&names[..], circuits.len()) {
+                ([], 1) if style == 0 => continue,
+                ([], 1) => format!("{ordinal} circuit"),
+                ([], _) => numbered("circuits", circuits.iter().map(usize::to_string).collect()),
+                ([_, _, ..], _) if names.iter().all(|[words, _]| words == "point") => {
+                    numbered("points", names.into_iter().map(|[_, number]| number).collect())
+                }
+                _ => names.iter().map(|name| name.join(" ")).collect::<Vec<_>>().join(", "),
             };
             add(Mark::Dashes(self.curve_ink(first, theme)), &what);
         }

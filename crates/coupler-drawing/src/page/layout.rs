@@ -1,5 +1,10 @@
 //! How cells are laid out on pages.
 
+use crate::chart::{curve_name, point_name};
+use coupler_curves::family::Cell;
+use coupler_curves::linkage::Linkage;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+
 /// How a family's cells are laid out on pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
@@ -46,9 +51,26 @@ impl Layout {
         }
     }
 
-    /// What pages call the curves of a linkage that have numbers.
-    pub fn curve_noun(self) -> &'static str {
-        if self == Layout::CouplerGrid { "point" } else { "curve" }
+    /// What its pages call the curve of the n-th traced joint, from 1, in two parts, as in "path of" and "B", or "point" and "12"; `None` if the
+    /// linkage has one traced joint.
+    pub fn curve_name(self, linkage: &Linkage, trace: usize) -> Option<[String; 2]> {
+        let traced = linkage.traced.iter().map(|&joint| linkage.joints[joint].name.as_str());
+        (linkage.traced.len() > 1).then(|| match self {
+            Layout::CouplerGrid => point_name(trace),
+            _ => curve_name(traced, trace),
+        })
+    }
+
+    /// Which curve of a cell it is, as in "path of B, circuit 2": what its joint and its circuit are called, as far as there are several.
+    pub fn curve_words(self, solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+        let name = self.curve_name(&solved.linkage, curve.trace).map(|name| name.join(" "));
+        let words: Vec<String> = name.into_iter().chain(circuit_words(solved, curve)).collect();
+        (!words.is_empty()).then(|| words.join(", "))
+    }
+
+    /// The number of the figure of a cell on its page, if that has several.
+    pub fn figure_number(self, cell: &Cell) -> Option<usize> {
+        (self.cells_per_page() > 1).then_some(cell.number)
     }
 
     /// The number of panels or charts on a page.
@@ -56,4 +78,9 @@ impl Layout {
         let [columns, rows] = self.grid();
         columns * rows
     }
+}
+
+/// The circuit of a curve in words, if its linkage has several.
+pub fn circuit_words(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+    (solved.motion.circuits.len() > 1).then(|| format!("circuit {}", curve.circuit))
 }

@@ -1,13 +1,13 @@
 //! Measured properties that are marked on curves and written under them: straight portions and axes of symmetry.
 
+use super::layout::Layout;
 use super::plot::{MAX_CURVE_ERROR, Plot};
 use super::theme::Theme;
 use super::typography::{format_fixed, superscript};
-use crate::chart;
 use crate::scene::{Color, Item, Path, Polyline};
 
 use coupler_curves::family::{Family, StraightCriterion};
-use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
+use coupler_curves::geometry::{Bounds, Point, distance_to_segment, simplify_polyline};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::measure::{Measure, MeasureSet, StraightPortion, Symmetry, SymmetryAxis};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -56,10 +56,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         };
         let length = format_with_digits(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
-        let path = match path_name(solved, curve) {
-            None if solved.linkage.traced.len() > 1 => Some(format!("curve {}", curve.trace)),
-            name => name,
-        };
+        let path = path_name(solved, curve).map(|name| name.join(" "));
         // The linkage is drawn on the first circuit.
         let circuit = (curve.circuit > 1).then(|| format!("circuit {}", curve.circuit));
         let which: Vec<String> = path.into_iter().chain(circuit).collect();
@@ -140,12 +137,9 @@ fn format_limit(linkage: &Linkage, limit: f64, inward: f64) -> String {
 /// The digits of an input that is a length.
 const LENGTH_DIGITS: i32 = 4;
 
-/// The path of a curve by the name of its joint, where several joints are traced and their names differ.
-pub(super) fn path_name(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
-    let linkage = &solved.linkage;
-    let name = |joint: JointId| linkage.joints[joint].name.as_str();
-    let traced = linkage.traced.iter().map(|&joint| name(joint));
-    chart::path_name(traced, name(curve.joint)).filter(|_| linkage.traced.len() > 1)
+/// What the path of a curve is called, where several joints are traced, on all pages but those of coupler grids.
+pub(super) fn path_name(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<[String; 2]> {
+    Layout::Panels { columns: 1, rows: 1 }.curve_name(&solved.linkage, curve.trace)
 }
 
 /// The range of the transmission angle, in degrees. At 0° and at 180° coupler and output link are on one line, and no force
@@ -199,18 +193,24 @@ pub(super) fn straight_criterion_text(criterion: StraightCriterion, unit: &str) 
     }
 }
 
-/// The mirror image of a straight portion in the axis of its curve, if the curve is symmetrical and the portion is not
-/// its own image.
+/// The mirror image of a straight portion in the axis of its curve, if the curve is symmetrical and the image is another portion: where
+/// both overlap or touch, they are one.
 fn mirrored_portion(solved: &SolvedCell, curve: &MeasuredCurve, portion: &StraightPortion) -> Option<Vec<Point>> {
     /// The ends of a portion are known to about this part of its length.
     const END_ACCURACY: f64 = 1e-3;
+    /// The sine of the angle up to which two portions are on one line.
+    const PARALLEL: f64 = 0.1;
     let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric)?;
     crosses_axis(solved, curve, &axis).then_some(())?;
     let image: Vec<Point> = portion.points.iter().map(|p| axis.mirror(*p)).collect();
     let (first, last) = (*portion.points.first()?, *portion.points.last()?);
-    let image_end = *image.first()?;
-    let nearest = (image_end - first).norm().min((image_end - last).norm());
-    (nearest > END_ACCURACY * portion.length).then_some(image)
+    let along = (last - first).try_normalize(0.0)?;
+    let [from, to] = [*image.first()?, *image.last()?];
+    // Portions that cross or meet at an angle are two.
+    let is_parallel = along.perp(&(to - from)).abs() <= PARALLEL * (to - from).norm();
+    let near = END_ACCURACY * portion.length + 2.0 * portion.deviation;
+    let is_on_portion = |end: Point| distance_to_segment(end, first, last) <= near;
+    (!(is_parallel && [from, to].into_iter().any(is_on_portion))).then_some(image)
 }
 
 /// Whether the mirror image of a portion takes as much input as the portion, from where its twin begins: the samples in that range are those on the image.

@@ -53,7 +53,7 @@ pub use figure::dash_period;
 pub use guided_body::{BodyFrame, BodyPlaces, GuidedBody};
 pub use heading::Heading;
 pub use key::Key;
-pub use layout::Layout;
+pub use layout::{Layout, circuit_words};
 pub use marks::cell_facts;
 pub use options::Options;
 pub use pages::{AnswersPage, ChartPage, CouplerGridPage, FoundCurve, LinkLabel, OverlayPage, PanelPage, PanelScale};

@@ -86,8 +86,6 @@ pub struct Chapter<'a> {
     pub title: &'a str,
     /// The names of parameters, set in italics.
     pub symbols: &'a [String],
-    /// What numbered curves are called, "point" or "curve".
-    pub curve_noun: &'static str,
     /// The number of curves, if it is known.
     pub curve_count: Option<usize>,
     /// The number of pages.
@@ -228,6 +226,8 @@ pub struct FindingCell {
     pub varying: Vec<String>,
     /// The curves of each page of the cell, with the number of the page in the atlas, from 1.
     pub pages: Vec<(Vec<FindingCurve>, usize)>,
+    /// The number of its figure on the page, if that has several.
+    pub figure: Option<usize>,
     /// What is drawn above them, at their scale.
     pub bar: ScaleBar,
 }
@@ -272,12 +272,12 @@ pub struct ListEntry {
     pub chapter: usize,
     /// The caption of its cell.
     pub caption: String,
-    /// Which curve of the cell it is, as in "point 25"; may be empty.
+    /// Which curve of the cell it is, as in "path of B"; may be empty.
     pub curve: String,
     /// What is said of it, a line each, or what is in the columns.
     pub lines: Vec<String>,
     /// The number of its page in the atlas, from 1.
     pub page: usize,
-    /// The number of its figure on the page, if it has several.
+    /// The number of its figure on the page, if that has several.
     pub figure: Option<usize>,
 }

@@ -90,7 +90,8 @@ pub(super) struct Entry<'a> {
 impl Entry<'_> {
     /// The family and the caption in one line.
     fn text_line(&self, theme: &Theme) -> TextLine {
-        let family = self.family.map_or(String::new(), |family| format!("{family} · "));
+        let separator = if self.caption.is_empty() { "" } else { " · " };
+        let family = self.family.map_or(String::new(), |family| format!("{family}{separator}"));
         let mut line = entry_line(&family, theme);
         // Only the caption contains names of parameters.
         line.text.runs.extend(entry_line(self.caption, theme).with_italics(self.symbols).text.runs);

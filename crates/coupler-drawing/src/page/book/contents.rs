@@ -93,7 +93,7 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
         let pages = if first == last { format!("page {first}") } else { format!("pages {first} to {last}") };
         ways.push(format!(
             "By its shape: the finding charts, {pages}, have small drawings of curves over the dimensions of their linkages, each \
-             with the number of its page."
+             with its page, and its figure where a page has several."
         ));
     }
     let lists: Vec<String> = back_matter

@@ -9,6 +9,7 @@ use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, FindingCell, FindingChart, FindingCurve, ScaleBar};
+use super::reference::{Form, in_form, reference};
 use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Polyline, Scene, Stroke, Text};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -73,8 +74,7 @@ pub(super) fn compose(
         let label = form.text(&cell.label, &cell.varying);
         let line = theme.text_line(&label, Point::origin(), Anchor::Middle, em, theme.ink);
         let width = column - 0.6 * em;
-        let lines = if line.text.width() <= 1.1 * width { vec![label] } else { line.wrap(width) };
-        lines.into_iter().filter(|line| !line.is_empty()).collect()
+        line.wrap_unless_it_fits(width)
     };
     let fits = |form: &CaptionForm| chart.cells.iter().all(|cell| lines_in(*form, cell).len() <= CAPTION_LINES);
     let form = CaptionForm::ALL.into_iter().find(fits).unwrap_or(CaptionForm::Values);
@@ -115,6 +115,16 @@ pub(super) fn compose(
     // So that drawings are in rows, captions have the same height.
     let caption_height =
         CAPTION_HEIGHT * em * chart.cells.iter().map(|cell| caption_lines(cell).len()).max().unwrap_or(0) as f64;
+    // All in one form, that of the longest.
+    let fits = |form: &Form| {
+        let pages = chart.cells.iter().flat_map(|cell| cell.pages.iter().map(move |(_, page)| (cell, *page)));
+        { pages }.all(|(cell, page)| {
+            let line =
+                theme.text_line(&in_form(*form, page, cell.figure), Point::origin(), Anchor::Middle, em, theme.ink);
+            line.text.width() <= (step.x - 2.0 * INSET * em) / cell.pages.len() as f64
+        })
+    };
+    let form = Form::ALL.into_iter().find(fits).unwrap_or(Form::Numbers);
     for cell in &chart.cells {
         let [row, column] = cell.place;
         let corner = whole.corner + Vector::new(step.x * column as f64, step.y * row as f64);
@@ -125,10 +135,10 @@ pub(super) fn compose(
         }
         let below = Vector::new(0.0, caption_height);
         let frame = Rect { corner: frame.corner + below, size: frame.size - below };
-        for (part, page) in draw_cell(&root, cell, frame, theme) {
+        for (part, page) in draw_cell(&root, cell, frame, form, theme) {
             if let Some(page_index) = link(page) {
                 let (corner, size, kind) = (part.corner, part.size, LinkKind::Entry);
-                let (target, title) = (LinkTarget::Page(page_index), format!("page {page}"));
+                let (target, title) = (LinkTarget::Page(page_index), reference(page, cell.figure));
                 links.push(PageLink { corner, size, target, title, kind });
             }
         }
@@ -139,7 +149,7 @@ pub(super) fn compose(
 }
 
 /// Draws the curves of a cell, all at one scale, with its bar; the result is the places of its pages, with their numbers.
-fn draw_cell(root: &impl Area, cell: &FindingCell, frame: Rect, theme: &Theme) -> Vec<(Rect, usize)> {
+fn draw_cell(root: &impl Area, cell: &FindingCell, frame: Rect, form: Form, theme: &Theme) -> Vec<(Rect, usize)> {
     let em = theme.note_size;
     let bar_height = if cell.pages.is_empty() { 0.0 } else { BAR_HEIGHT * em };
     let width = frame.size.x / cell.pages.len().max(1) as f64;
@@ -161,7 +171,7 @@ fn draw_cell(root: &impl Area, cell: &FindingCell, frame: Rect, theme: &Theme) -
     let small = &Theme { fine_width: 0.8 * theme.fine_width, ..theme.clone() };
     for (k, (curves, page)) in cell.pages.iter().enumerate() {
         let part = part(k);
-        root.grouped(Group::figure("entry", format!("Curves of page {page}")), || {
+        root.grouped(Group::figure("entry", format!("Curves of {}", reference(*page, cell.figure))), || {
             for (k, curve) in curves.iter().enumerate() {
                 let corner = places.corner(part.corner, k);
                 let at = corner + Vector::new(0.5 * places.step.x, places.step.y - 0.1 * em);
@@ -178,7 +188,9 @@ fn draw_cell(root: &impl Area, cell: &FindingCell, frame: Rect, theme: &Theme) -
             }
         });
         let at = part.corner + Vector::new(0.5 * width, size.y - 0.25 * em);
-        root.record(theme.text_line(&page.to_string(), at, Anchor::Middle, em, theme.ink).fit_width(width));
+        root.record(
+            theme.text_line(&in_form(form, *page, cell.figure), at, Anchor::Middle, em, theme.ink).fit_width(width),
+        );
     }
     cell.pages.iter().enumerate().map(|(k, (_, page))| (part(k), *page)).collect()
 }

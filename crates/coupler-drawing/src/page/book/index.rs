@@ -1,27 +1,33 @@
 //! The index: geometries by straightness, transmission angle and symmetry.
 
 use std::cmp::Ordering;
+use std::collections::HashSet;
 
 use super::columns::{Entry, Row, Target};
 use super::index_entry::IndexValue;
+use super::reference::figure_words;
 use super::{Atlas, IndexEntry};
 
 /// The most entries of a section.
 const MAX_ENTRIES: usize = 2000;
 
-type RankedEntries<'g> = Vec<(&'g IndexEntry, IndexValue)>;
+type RankedEntries<'g> = Vec<(&'g IndexEntry, &'g IndexValue)>;
 
 /// The rows of the index: for every measure its definition and the geometries, the best first.
 pub(super) fn rows<'a>(atlas: &'a Atlas) -> Vec<Row<'a>> {
     let index_entries = &atlas.index;
-    let ranked = |pick: fn(&IndexEntry) -> Option<IndexValue>, order: fn(f64, f64) -> Ordering| {
+    let greatest_first = |a: f64, b: f64| b.total_cmp(&a);
+    let least_first = |a: f64, b: f64| a.total_cmp(&b);
+    let ranked = |pick: fn(&IndexEntry) -> Option<&IndexValue>, order: fn(f64, f64) -> Ordering| {
         let picked = index_entries.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
         let mut entries: RankedEntries = picked.collect();
         entries.sort_by(|(_, a), (_, b)| order(a.value, b.value).then(a.page.cmp(&b.page)));
         entries
     };
-    let greatest_first = |a: f64, b: f64| b.total_cmp(&a);
-    let least_first = |a: f64, b: f64| a.total_cmp(&b);
+    // Each linkage once, whatever its points.
+    let mut seen = HashSet::new();
+    let mut by_transmission_angle = ranked(|geometry| geometry.transmission_angle.as_ref(), greatest_first);
+    by_transmission_angle.retain(|(geometry, _)| seen.insert((geometry.chapter, geometry.linkage)));
     let sections = [
         Section {
             title: "By straightness",
@@ -30,7 +36,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas) -> Vec<Row<'a>> {
             unit: " %",
             scale: 100.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.straightness, greatest_first),
+            entries: ranked(|geometry| geometry.straightness.as_ref(), greatest_first),
         },
         Section {
             title: "By transmission angle",
@@ -38,7 +44,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas) -> Vec<Row<'a>> {
             unit: "°",
             scale: 1.0,
             decimals: 1,
-            entries: ranked(|geometry| geometry.transmission_angle, greatest_first),
+            entries: by_transmission_angle,
         },
         Section {
             title: "By symmetry",
@@ -47,7 +53,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas) -> Vec<Row<'a>> {
             unit: " %",
             scale: 100.0,
             decimals: 2,
-            entries: ranked(|geometry| geometry.asymmetry, least_first),
+            entries: ranked(|geometry| geometry.asymmetry.as_ref(), least_first),
         },
     ];
     sections.iter().flat_map(|section| section.rows(atlas)).collect()
@@ -62,9 +68,9 @@ pub fn keep_listed<T>(entries: &mut Vec<(T, IndexEntry)>) {
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         ranked.iter().take(MAX_ENTRIES).for_each(|(_, k)| is_kept[*k] = true);
     };
-    keep_first(|entry| entry.straightness.map(|best| -best.value));
-    keep_first(|entry| entry.transmission_angle.map(|best| -best.value));
-    keep_first(|entry| entry.asymmetry.map(|best| best.value));
+    keep_first(|entry| entry.straightness.as_ref().map(|best| -best.value));
+    keep_first(|entry| entry.transmission_angle.as_ref().map(|best| -best.value));
+    keep_first(|entry| entry.asymmetry.as_ref().map(|best| best.value));
     let mut kept = is_kept.into_iter();
     entries.retain(|_| kept.next().unwrap_or(false));
 }
@@ -101,9 +107,7 @@ impl<'a> Section<'a> {
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
                 // Adding 0 removes the sign of a negative zero.
                 values: vec![format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0)],
-                curve: chapter
-                    .zip(best.curve)
-                    .map_or(String::new(), |(c, number)| format!("{} {number}", c.curve_noun)),
+                curve: best.curve.iter().cloned().chain(figure_words(geometry.figure)).collect::<Vec<_>>().join(", "),
                 page: Target::Page(best.page),
                 last_page: None,
             })

@@ -1,5 +1,7 @@
 //! The index entry of a cell.
 
+use super::super::{Layout, circuit_words};
+use super::linkage_identity::linkage_identity;
 use coupler_curves::measure::{Measure, Symmetry};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -9,6 +11,10 @@ pub struct IndexEntry {
     /// The index of the chapter.
     pub(super) chapter: usize,
     pub(super) caption: String,
+    /// What the linkage of the best transmission angle is recognized by, whatever points it has.
+    pub(super) linkage: u64,
+    /// The number of its figure on the page, if that has several.
+    pub(super) figure: Option<usize>,
     /// The greatest fraction of the length of a curve that is its straight portion.
     pub(super) straightness: Option<IndexValue>,
     /// The worst transmission angle, in degrees from 0 to 90.
@@ -18,37 +24,52 @@ pub struct IndexEntry {
 }
 
 /// A value with its curve and page.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct IndexValue {
     pub value: f64,
-    /// The number of the traced point, if there are several.
-    pub curve: Option<usize>,
+    /// What the curve is called, if there are several.
+    pub curve: Option<String>,
     /// The number of the page of the atlas, from 1.
     pub page: usize,
 }
 
 impl IndexEntry {
-    /// The index entry of a solved cell, whose chapter and first page are not known yet.
+    /// The index entry of a solved cell on pages of a layout, whose chapter and first page are not known yet.
     ///
     /// `page(k)` is the number of the page that shows the k-th curve, from 0 for the first page of the cell.
-    pub fn from_solved_cell(solved: &SolvedCell, caption: &str, page: impl Fn(usize) -> usize) -> IndexEntry {
-        let has_many = solved.linkage.traced.len() > 1;
+    pub fn from_solved_cell(
+        (solved, layout): (&SolvedCell, Layout),
+        caption: &str,
+        page: impl Fn(usize) -> usize,
+    ) -> IndexEntry {
         let index_value = |value: f64, k: usize, curve: &MeasuredCurve| {
-            value.is_finite().then(|| IndexValue { value, curve: has_many.then_some(curve.trace), page: page(k) })
+            value.is_finite().then(|| IndexValue { value, curve: layout.curve_words(solved, curve), page: page(k) })
         };
-        let best = |value: fn(&MeasuredCurve) -> Option<f64>, is_better: fn(f64, f64) -> bool| {
+        let best = |value: &dyn Fn(&MeasuredCurve) -> Option<f64>, is_better: fn(f64, f64) -> bool| {
             let values = solved.curves.iter().enumerate().filter_map(|(k, curve)| index_value(value(curve)?, k, curve));
             // Of equal values the first is kept.
             values.reduce(|best, other| if is_better(other.value, best.value) { other } else { best })
         };
+        // The path of a slider on its guide is straight, and so symmetrical, by construction.
+        let is_of_slider = |curve: &MeasuredCurve| solved.linkage.slider_line(curve.joint).is_some();
+        let of_path = |value: fn(&MeasuredCurve) -> Option<f64>| {
+            move |curve: &MeasuredCurve| value(curve).filter(|_| !is_of_slider(curve))
+        };
+        let best_of_linkage = best(&|curve| curve.measure(Measure::MU_WORST), |a, b| a > b);
+        let of_best = best_of_linkage
+            .as_ref()
+            .and_then(|best| solved.curves.iter().find(|curve| curve.measure(Measure::MU_WORST) == Some(best.value)));
+        let best_of_linkage = best_of_linkage
+            .map(|value| IndexValue { curve: of_best.and_then(|curve| circuit_words(solved, curve)), ..value });
         IndexEntry {
             chapter: 0,
+            linkage: of_best.map_or(0, |curve| linkage_identity(solved, curve)),
             caption: caption.to_owned(),
-            straightness: best(straightness, |a, b| a > b),
-            // The transmission angle is the same for all points of a linkage.
-            transmission_angle: best(|curve| curve.measure(Measure::MU_WORST), |a, b| a > b)
-                .map(|value| IndexValue { curve: None, ..value }),
-            asymmetry: best(asymmetry, |a, b| a < b),
+            figure: layout.figure_number(&solved.cell),
+            straightness: best(&of_path(straightness), |a, b| a > b),
+            // The transmission angle is the same for all points of a linkage on a circuit.
+            transmission_angle: best_of_linkage,
+            asymmetry: best(&of_path(asymmetry), |a, b| a < b),
         }
     }
 
@@ -58,7 +79,9 @@ impl IndexEntry {
             |value: Option<IndexValue>| value.map(|value| IndexValue { page: first_page + value.page, ..value });
         IndexEntry {
             chapter,
+            linkage: self.linkage,
             caption: self.caption,
+            figure: self.figure,
             straightness: placed(self.straightness),
             transmission_angle: placed(self.transmission_angle),
             asymmetry: placed(self.asymmetry),

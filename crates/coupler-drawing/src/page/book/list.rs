@@ -7,6 +7,7 @@ use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, CurveList, ListEntry};
+use super::reference::reference;
 use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -94,7 +95,7 @@ pub(super) fn compose(
             let frame = Rect { corner: grid.corner + shift, size: grid.step };
             draw_entry(&root, frame, k * grid.per_page() + place + 1, entry, atlas, theme);
             if let Some(page_index) = link(entry.page) {
-                let title = format!("page {}: {}", entry.page, entry.caption);
+                let title = format!("{}: {}", reference(entry.page, entry.figure), entry.caption);
                 let (corner, size, kind) = (frame.corner, frame.size, LinkKind::Entry);
                 links.push(PageLink { corner, size, target: LinkTarget::Page(page_index), title, kind });
             }
@@ -158,8 +159,7 @@ fn text_width(entry_width: f64, em: f64) -> f64 {
 fn entry_lines(entry: &ListEntry, atlas: &Atlas, width: f64, theme: &Theme) -> Vec<TextLine> {
     let chapter = atlas.chapters.get(entry.chapter);
     let symbols = chapter.map_or(&[][..], |chapter| chapter.symbols);
-    let figure = entry.figure.map_or(String::new(), |figure| format!(", figure {figure}"));
-    let mut texts = vec![(format!("page {}{figure}", entry.page), theme.text_ink(theme.curve_ink(0)))];
+    let mut texts = vec![(reference(entry.page, entry.figure), theme.text_ink(theme.curve_ink(0)))];
     let family = chapter.filter(|_| atlas.chapters.len() > 1 && atlas.names_families);
     texts.extend(family.map(|chapter| (chapter.title.to_owned(), theme.grey)));
     texts.push((entry.caption.clone(), theme.ink));
@@ -168,8 +168,7 @@ fn entry_lines(entry: &ListEntry, atlas: &Atlas, width: f64, theme: &Theme) -> V
     let mut lines = Vec::new();
     for (text, ink) in texts.into_iter().filter(|(text, _)| !text.is_empty()) {
         let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, theme.note_size, ink);
-        let words = if line(&text).text.width() <= 1.08 * width { vec![text] } else { line(&text).wrap(width) };
-        lines.extend(words.iter().map(|words| line(words).with_italics(symbols)));
+        lines.extend(line(&text).wrap_unless_it_fits(width).iter().map(|words| line(words).with_italics(symbols)));
     }
     lines
 }

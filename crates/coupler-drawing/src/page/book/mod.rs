@@ -18,8 +18,10 @@ mod free_space;
 mod how_to_read;
 mod index;
 mod index_entry;
+mod linkage_identity;
 mod list;
 mod miniature;
+mod reference;
 mod table;
 mod title;
 
@@ -34,6 +36,7 @@ pub use folio::{Tab, draw_folio};
 pub use how_to_read::plate_part;
 pub use index::keep_listed;
 pub use index_entry::IndexEntry;
+pub use linkage_identity::linkage_identity;
 pub use miniature::{Emphasis, Miniature};
 
 use super::empty_scene::empty_scene;

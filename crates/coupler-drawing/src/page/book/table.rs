@@ -4,13 +4,14 @@ use super::super::Options;
 use super::super::theme::Theme;
 use super::atlas::{Atlas, CurveList, Volume};
 use super::columns::{self, Entry, ListHeader, Places, Row, Target};
+use super::reference::figure_words;
 use crate::scene::Scene;
 
 /// The rows of a table.
 fn rows<'a>(list: &'a CurveList, atlas: &'a Atlas) -> Vec<Row<'a>> {
     let entry = |entry: &'a super::ListEntry| {
         let chapter = atlas.chapters.get(entry.chapter);
-        let figure = entry.figure.map(|figure| format!("figure {figure}"));
+        let figure = figure_words(entry.figure);
         let curve = Some(entry.curve.clone()).filter(|curve| !curve.is_empty());
         Row::Entry(Entry {
             family: chapter.filter(|_| atlas.names_families).map(|chapter| chapter.title),

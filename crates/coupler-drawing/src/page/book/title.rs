@@ -92,7 +92,6 @@ fn family_lines(atlas: &Atlas) -> Vec<String> {
         line(&Chapter {
             title: &format!("{} more families", rest.len()),
             symbols: &[],
-            curve_noun: "curve",
             curve_count: curves,
             page_count: pages,
             cells,
