@@ -6,7 +6,7 @@
 use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::motion::Circuit;
-use coupler_curves::parts::{Idler, idlers, pitch_circles};
+use coupler_curves::parts::{Idler, RackMesh, idlers, pitch_circles, rack_mesh};
 
 /// The parts of a linkage on a circuit.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,15 +145,9 @@ fn find_guides(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<Guid
     };
     let Some((ends, along)) = guide() else { return Vec::new() };
     let pitch_line = || {
-        let JointKind::Rack { radius, .. } = linkage.joints[joint].kind else { return None };
-        // Where the rack moves along its line as the pinion turns counter-clockwise, it is to the right of the pivot; the mirror image of
-        // a linkage turns clockwise.
-        let to_left = left_normal(along.try_normalize(0.0)?) * linkage.placement.handedness();
-        let pivot = circuit.positions.point(linkage.crank()?[0], 0);
-        let offset = to_left.dot(&(pivot - ends[0])) - radius;
-        /// The part of the radius up to which a joint is on the pitch line: what rounding leaves of an offset like it.
-        const ROUNDING: f64 = 1e-9;
-        (offset.abs() > ROUNDING * radius.abs()).then(|| ends.map(|end| end + to_left * offset))
+        let RackMesh { offset, .. } = rack_mesh(linkage, circuit, joint).filter(|mesh| mesh.offset != 0.0)?;
+        let aside = left_normal(along.try_normalize(0.0)?) * offset;
+        Some(ends.map(|end| end + aside))
     };
     [Some(ends), pitch_line()].into_iter().flatten().map(|ends| Guide { joint, ends }).collect()
 }

@@ -30,7 +30,7 @@ pub(super) enum LayerKind {
     Outline,
     Holes,
     Slots,
-    /// The centre lines of holes and slots.
+    /// The centre lines of holes and slots, and the pitch lines of racks.
     Centres,
     Curve,
     Text,
@@ -61,8 +61,10 @@ impl PartDrawing {
         drawing.add_part(0, part, &Similarity::IDENTITY);
         let bounds = drawing.bounds();
         let height = 0.75 * sizes.hole;
-        let below = Point::new(bounds.min.x, bounds.min.y - 2.0 * height);
-        drawing.add(LayerKind::Text, Shape::Text(part.name.clone(), below, height));
+        for (k, words) in std::iter::once(&part.name).chain(&part.notes).enumerate() {
+            let below = Point::new(bounds.min.x, bounds.min.y - 2.0 * height * (k as f64 + 1.0));
+            drawing.add(LayerKind::Text, Shape::Text(words.clone(), below, height));
+        }
         drawing
     }
 
@@ -113,6 +115,12 @@ impl PartDrawing {
         for slot in &part.slots {
             self.add(LayerKind::Slots, Shape::Outline(slot.outline(self.hole).transformed(transform)));
             self.add(LayerKind::Centres, Shape::Line(slot.ends.map(|end| transform.apply(end))));
+        }
+        if let Some(line) = part.pitch_line {
+            let ends = line.ends.map(|end| transform.apply(end));
+            self.add(LayerKind::Centres, Shape::Line(ends));
+            let name = Shape::Text("pitch line".to_owned(), ends[0] + Vector::repeat(0.4 * radius), self.hole / 2.0);
+            self.add(LayerKind::Text, name);
         }
     }
 

@@ -2,6 +2,8 @@
 
 use super::anchor::{Anchor, Frame};
 use super::hole::{Hole, Slot, join_names};
+use super::pitch_line::PitchLine;
+use super::sizes::Sizes;
 use crate::geometry::{Bounds, Point, Vector, cross};
 use crate::linkage::{JointId, JointKind, Linkage};
 use crate::motion::Circuit;
@@ -18,6 +20,10 @@ pub(super) struct Body {
     /// The centres of holes that are at mere points: they are none where a slot is on a line through them.
     pub mere_points: Vec<Point>,
     pub slots: Vec<Slot>,
+    /// That of a rack.
+    pub pitch_line: Option<PitchLine>,
+    /// What its views do not show.
+    pub notes: Vec<String>,
     /// What makes it a block; `None` if it is none.
     pub block: Option<Block>,
     /// The name that its traced points share, if they are a grid.
@@ -68,6 +74,20 @@ impl Body {
         };
         let Body { holes, mere_points, slots, .. } = self;
         holes.retain(|hole| !mere_points.contains(&hole.centre) || !slots.iter().any(|slot| is_on(slot, hole.centre)));
+    }
+
+    /// Takes the holes that are in a slot of a block off it, to a plate over the slot that the guide pins hold on the block.
+    pub fn take_bridge(&mut self, sizes: Sizes) -> Option<Body> {
+        let block = self.block.filter(|_| self.holes.iter().any(|hole| hole.name.is_empty()))?;
+        let is_over = |hole: &Hole| self.slots.iter().any(|slot| slot.distance_to(hole.centre) < sizes.clearance());
+        let holes: Vec<Hole> =
+            self.holes.iter().filter(|hole| hole.name.is_empty() || is_over(hole)).cloned().collect();
+        if holes.iter().all(|hole| hole.name.is_empty()) {
+            return None;
+        }
+        self.holes.retain(|hole| hole.name.is_empty() || !holes.contains(hole));
+        let block = Some(Block { noun: "bridge", ..block });
+        Some(Body { holes, slots: Vec::new(), mere_points: Vec::new(), notes: Vec::new(), block, ..self.clone() })
     }
 
     /// Whether there is something to be cut.
@@ -135,7 +155,9 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: &[JointId]) -
         let mere_points = own.iter().filter(|(joint, _)| mere_points.contains(joint)).map(|(_, p)| *p).collect();
         let (holes, slots) = (Vec::new(), Vec::new());
         let joints = joints.clone();
-        let mut body = Body { is_ground, joints, anchor, holes, mere_points, slots, block, grid_name };
+        let (pitch_line, notes) = (None, Vec::new());
+        let mut body =
+            Body { is_ground, joints, anchor, holes, mere_points, slots, pitch_line, notes, block, grid_name };
         own.iter().zip(&names).for_each(|((_, p), (name, _))| body.add_hole(name, *p));
         bodies.push(body);
     }
@@ -153,6 +175,8 @@ pub(super) fn bodies(linkage: &Linkage, circuit: &Circuit, traced: &[JointId]) -
             holes: vec![Hole { name, centre: Point::origin() }],
             mere_points: Vec::new(),
             slots: Vec::new(),
+            pitch_line: None,
+            notes: Vec::new(),
             block: Some(Block { joint, noun: "block", axis }),
             grid_name: None,
         });

@@ -1,7 +1,7 @@
 //! Holes and slots.
 
 use super::outline::{Outline, rounded_hull};
-use crate::geometry::Point;
+use crate::geometry::{Point, distance_to_segment};
 
 /// A hole.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,11 @@ pub struct Slot {
 }
 
 impl Slot {
+    /// How far a point is from its centre line.
+    pub(super) fn distance_to(&self, p: Point) -> f64 {
+        distance_to_segment(p, self.ends[0], self.ends[1])
+    }
+
     /// What it is cut along, if it is as wide as a hole of a diameter.
     pub fn outline(&self, hole: f64) -> Outline {
         rounded_hull(&self.ends, hole / 2.0)

@@ -4,7 +4,7 @@
 //! from the side from which the linkage is drawn. Outlines are lines and arcs. Where a part is in a pose is [`Part::plane_from_part`].
 //!
 //! Everything is held by pins of one diameter: a slot is as wide as a hole, and what slides without turning, such as a yoke, has two guide pins, which
-//! slide in slots on its line, or in one that both use. A slot is longer than what its pins use by half a hole at each end. An actuator is no part.
+//! slide in slots on its line, or in one that both use; they also hold a plate with the holes that would be in its own slot. A slot is longer than what its pins use by half a hole at each end. An actuator is no part.
 
 mod actuator;
 mod anchor;
@@ -15,6 +15,7 @@ mod hole;
 mod outline;
 mod part;
 mod pitch_circle;
+mod pitch_line;
 mod sizes;
 mod slides;
 
@@ -24,6 +25,7 @@ pub use hole::{Hole, Slot};
 pub use outline::{Outline, Vertex};
 pub use part::Part;
 pub use pitch_circle::{Idler, idlers, pitch_circles};
+pub use pitch_line::{PitchLine, RackMesh, rack_mesh};
 pub use sizes::{GivenSizes, Sizes};
 
 use crate::geometry::{Bounds, Point};
@@ -52,13 +54,15 @@ impl Parts {
         given: GivenSizes,
     ) -> Result<Parts, PartsError> {
         let mut bodies = body::bodies(linkage, circuit, traced);
-        let circles = pitch_circles(linkage, circuit);
-        let sizes = sizes::resolve(&bodies, &circles, given)?;
-        let gears = gears::add(&mut bodies, linkage, (&circles, &idlers(linkage, circuit)), sizes);
+        let (circles, idlers) = (pitch_circles(linkage, circuit), idlers(linkage, circuit));
+        let sizes = sizes::resolve(&bodies, (&circles, &idlers), given)?;
+        let gears = gears::add(&mut bodies, linkage, (&circles, &idlers), sizes);
+        pitch_line::add(&mut bodies, (linkage, circuit), sizes);
         slides::add(&mut bodies, (linkage, circuit), sizes)?;
         let bodies = bodies.iter().filter(|body| body.is_part());
         let mut parts: Vec<Part> = bodies.map(|body| Part::from_body(body, linkage, sizes)).collect();
         parts.extend(gears);
+        parts.iter_mut().for_each(|part| part.note_overlaps(sizes));
         make_names_distinct(&mut parts);
         Ok(Parts { sizes, parts, actuator: Actuator::new(linkage, circuit) })
     }

@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use super::error::PartsError;
-use super::pitch_circle::PitchCircle;
+use super::pitch_circle::{Idler, PitchCircle};
 use crate::expression::format_number;
 
 /// The sizes that are given, in the unit of the linkage; positive.
@@ -23,11 +23,25 @@ pub struct Sizes {
     pub width: f64,
 }
 
+impl Sizes {
+    /// The least distance from the centre of a hole to that of another or to the centre line of a slot with enough material between them.
+    pub(super) fn clearance(&self) -> f64 {
+        1.5 * self.hole
+    }
+}
+
 /// The sizes of the parts of bodies: by default links are as wide as a tenth of the longest distance of two holes of a moving link, to one
 /// digit, and holes half as wide as links, but at most half as wide as two of them are apart
-/// or half the least pitch radius of a gear, to one digit.
-pub(super) fn resolve(bodies: &[Body], gears: &[PitchCircle], given: GivenSizes) -> Result<Sizes, PartsError> {
-    let least_radius = gears.iter().map(|gear| gear.radius).fold(f64::INFINITY, f64::min);
+/// or a quarter of the least pitch radius of a gear, which has a second hole, or half that of an idler, to one digit.
+pub(super) fn resolve(
+    bodies: &[Body],
+    (gears, idlers): (&[PitchCircle], &[Idler]),
+    given: GivenSizes,
+) -> Result<Sizes, PartsError> {
+    let least = |radii: &mut dyn Iterator<Item = f64>| radii.fold(f64::INFINITY, f64::min);
+    let [gear, idler] =
+        [least(&mut gears.iter().map(|gear| gear.radius)), least(&mut idlers.iter().map(|idler| idler.radius))];
+    let least_radius = gear.min(idler);
     let longest = bodies.iter().filter(|body| !body.is_ground).flat_map(distances).map(|(_, d)| d).fold(0.0, f64::max);
     let longest =
         if longest > 0.0 { longest } else { bodies.iter().flat_map(distances).map(|(_, d)| d).fold(0.0, f64::max) };
@@ -35,7 +49,8 @@ pub(super) fn resolve(bodies: &[Body], gears: &[PitchCircle], given: GivenSizes)
     let width = given.width.unwrap_or_else(|| one_digit(if longest > 0.0 { longest / 10.0 } else { 1.0 }));
     let hole = given.hole.unwrap_or_else(|| {
         let most = shortest.as_ref().map_or(f64::INFINITY, |(_, distance)| one_digit(distance / 2.0));
-        let most = if least_radius.is_finite() { most.min(one_digit(least_radius / 2.0)) } else { most };
+        let of_gears = (gear / 4.0).min(idler / 2.0);
+        let most = if of_gears.is_finite() { most.min(one_digit(of_gears)) } else { most };
         (width / 2.0).min(most)
     });
     if hole >= width {

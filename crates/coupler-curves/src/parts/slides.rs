@@ -19,9 +19,9 @@ struct Slide {
     is_guide: bool,
 }
 
-/// Adds guide pins to blocks, and slots to all bodies that something slides in.
+/// Adds guide pins to blocks, and slots to all bodies that something slides in; what is over the slot of a block becomes a body of its own.
 pub(super) fn add(
-    bodies: &mut [Body],
+    bodies: &mut Vec<Body>,
     (linkage, circuit): (&Linkage, &Circuit),
     sizes: Sizes,
 ) -> Result<(), PartsError> {
@@ -44,6 +44,8 @@ pub(super) fn add(
         }
     }
     bodies.iter_mut().for_each(Body::remove_points_of_slots);
+    let bridges: Vec<Body> = bodies.iter_mut().filter_map(|body| body.take_bridge(sizes)).collect();
+    bodies.extend(bridges);
     Ok(())
 }
 
@@ -147,7 +149,7 @@ fn guide_distance(
     let is_clear_on_carrier = |distance: &f64| {
         [-1.0, 1.0].into_iter().all(|side| {
             let [a, b] = slot_ends(way, (direction, side * distance), sizes);
-            carrier.holes.iter().all(|hole| distance_to_segment(hole.centre, a, b) >= 1.5 * sizes.hole)
+            carrier.holes.iter().all(|hole| distance_to_segment(hole.centre, a, b) >= sizes.clearance())
         })
     };
     let clear = || (1..=MOST).map(|k| k as f64 * step).filter(is_clear);

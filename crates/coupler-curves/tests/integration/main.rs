@@ -27,6 +27,7 @@ mod portions;
 mod rates;
 mod sextic;
 mod six_bars;
+mod special_parts;
 mod straight_line;
 mod symmetry;
 mod thesis;

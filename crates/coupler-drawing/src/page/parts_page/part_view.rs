@@ -117,7 +117,25 @@ fn cut_items(part: &Part, sizes: Sizes, page_from_part: &Similarity, theme: &The
     let polylines =
         marks.map(|ends| Polyline { points: ends.map(|p| page_from_part.apply(p)).to_vec(), is_closed: false });
     items.push(Item::Path(Path { polylines: polylines.collect(), stroke: Some(fine), fill: None }));
+    let pitch_line = part.pitch_line.map(|line| line.ends.map(|p| page_from_part.apply(p)));
+    items.extend(pitch_line.map(|ends| chain_line(ends, theme)));
     items
+}
+
+/// A line of long and short dashes, with a long one at both ends.
+fn chain_line([from, to]: [Point; 2], theme: &Theme) -> Item {
+    /// The lengths of a dash, a gap, a short dash and a gap, in ems of a note.
+    const LENGTHS: [f64; 4] = [1.6, 0.3, 0.3, 0.3];
+    let [dash, period] = [LENGTHS[0], LENGTHS.iter().sum()].map(|ems: f64| ems * theme.note_size);
+    let length = (to - from).norm();
+    let count = ((length - dash) / period).round().max(0.0);
+    let unit = (to - from) / (dash + count * period);
+    let gap = LENGTHS[1] * theme.note_size;
+    let long = (0..=count as usize).map(|k| [k as f64 * period, k as f64 * period + dash]);
+    let short = (0..count as usize).map(|k| k as f64 * period + dash + gap).map(|start| [start, start + gap]);
+    let line = |ends: [f64; 2]| Polyline { points: ends.map(|at| from + unit * at).to_vec(), is_closed: false };
+    let polylines = long.chain(short).map(line).collect();
+    Item::Path(Path { polylines, stroke: Some(theme.stroke(theme.ink, theme.hair_width)), fill: None })
 }
 
 /// An outline on the page.
@@ -157,7 +175,7 @@ fn outline_points(outline: &Outline) -> Vec<Point> {
     points
 }
 
-/// The dimensions in a direction of the holes and of the ends of slots: how far each is from the first hole, the shortest next to the view.
+/// The dimensions in a direction of the holes and of the ends of slots and of a pitch line: how far each is from the first hole, the shortest next to the view.
 fn dimensions(
     part: &Part,
     direction: Direction,
@@ -166,7 +184,8 @@ fn dimensions(
     theme: &Theme,
 ) -> Vec<Dimension> {
     let mut places: Vec<Point> = part.holes.iter().map(|hole| hole.centre).collect();
-    places.extend(part.slots.iter().flat_map(|slot| slot.ends));
+    places
+        .extend(part.slots.iter().flat_map(|slot| slot.ends).chain(part.pitch_line.iter().flat_map(|line| line.ends)));
     let Some(first) = places.first().copied() else { return Vec::new() };
     let from_first = |p: &Point| if direction == Direction::Across { p.x - first.x } else { p.y - first.y };
     // Coordinates that differ by rounding are one.
@@ -187,7 +206,7 @@ fn dimensions(
     places.iter().enumerate().map(dimension).collect()
 }
 
-/// The names of the holes, each beside its hole where it overlaps nothing, and otherwise at the end of a line from there.
+/// The names of the holes and of a pitch line, each beside its hole where it overlaps nothing, and otherwise at the end of a line from there.
 fn letters(
     (part, sizes): (&Part, Sizes),
     items: &[Item],
@@ -205,12 +224,13 @@ fn letters(
     obstacles.add(&part.holes.iter().map(disk).collect::<Vec<_>>(), false);
     let size = theme.note_size;
     let named = part.holes.iter().filter(|hole| !hole.name.is_empty());
-    let named: Vec<(Point, Text)> = named
-        .map(|hole| {
-            let text = theme.text_line(&hole.name, Point::origin(), Anchor::Middle, size, theme.ink).text;
-            (page_from_part.apply(hole.centre), text)
-        })
-        .collect();
+    let of_holes = named.map(|hole| (hole.centre, hole.name.as_str()));
+    let pitch_line = part.pitch_line.iter().map(|line| (line.ends[1], "pitch line"));
+    let text = |(at, name): (Point, &str)| {
+        let text = theme.text_line(name, Point::origin(), Anchor::Middle, size, theme.ink).text;
+        (page_from_part.apply(at), text)
+    };
+    let named: Vec<(Point, Text)> = of_holes.chain(pitch_line).map(text).collect();
     let centres: Vec<Point> = part.holes.iter().map(|hole| page_from_part.apply(hole.centre)).collect();
     // Names may be around everything else.
     let widest = named.iter().map(|(_, text)| text.width()).fold(0.0, f64::max);

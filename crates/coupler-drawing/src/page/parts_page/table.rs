@@ -155,7 +155,7 @@ fn line_count(row: &[Vec<String>; COLUMNS]) -> usize {
 const MOST_HOLES: usize = 6;
 
 fn row(group: &Group) -> [String; COLUMNS] {
-    let Part { holes, slots, outline, .. } = group.part;
+    let Part { holes, slots, outline, pitch_line, notes, .. } = group.part;
     let slot_count = if slots.is_empty() { String::new() } else { format!(" + {}", slots.len()) };
     let is_named = |k: usize| !holes[k].name.is_empty();
     // The distances from the first two determine where all others are; pins that only guide or hold are on a line of the view.
@@ -174,8 +174,14 @@ fn row(group: &Group) -> [String; COLUMNS] {
         }
         _ => None,
     };
+    let pitch_line = pitch_line.map(|line| {
+        let [length, radius] = [(line.ends[1] - line.ends[0]).norm(), line.radius].map(length_text);
+        format!("pitch line {length}, pitch radius of its pinion {radius}")
+    });
+    let slots = slots.iter().map(slot);
     let mut words: Vec<String> =
-        pairs.map(distance).chain(others).chain(slots.iter().map(slot)).chain(radius).collect();
+        pairs.map(distance).chain(others).chain(slots).chain(radius).chain(pitch_line).collect();
+    words.extend(notes.iter().cloned());
     // Both guide pins of a block are as far from its joint.
     words.dedup();
     [group.names.join(", "), group.names.len().to_string(), format!("{}{slot_count}", holes.len()), words.join(" · ")]
