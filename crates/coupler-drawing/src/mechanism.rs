@@ -88,7 +88,7 @@ impl Mechanism {
             helpers: circuit.helpers(linkage),
             pivots: linkage.pivots(),
             blocks: linkage.joint_ids().filter_map(block).collect(),
-            slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
+            slots: linkage.joint_ids().flat_map(|joint| find_slots(linkage, circuit, joint)).collect(),
             actuators: linkage.actuators(),
             guides: linkage.joint_ids().flat_map(|joint| find_guides(linkage, circuit, joint)).collect(),
             gears: gears(linkage, circuit),
@@ -159,22 +159,23 @@ fn fixed_line_direction(linkage: &Linkage, circuit: &Circuit, [p, q]: [JointId; 
     Some(circuit.positions.point(q, 0) - circuit.positions.point(p, 0))
 }
 
-/// The slot that a joint is the foot or the yoke of, or that it slides in on a moving link.
-fn find_slot(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Slot> {
+/// The slots that a joint is the foot or the yoke of, and that it slides in on a moving link.
+fn find_slots(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> impl Iterator<Item = Slot> {
     // The line turns with a base: the pivot and the foot of a slot, the guide of a yoke, or the line itself of a slot
     // without offset and of a slider.
-    let (foot, [from, to], through) = match linkage.joints[joint].kind {
-        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => (joint, [pivot, through], through),
-        JointKind::Slot { base: [pivot, through], .. } => (joint, [pivot, joint], through),
-        JointKind::Yoke { from, line, .. } => (joint, line, from),
-        _ => {
-            let line = linkage.slider_line(joint)?;
-            if fixed_line_direction(linkage, circuit, line).is_some() {
-                return None;
-            }
-            (line[0], line, joint)
-        }
+    let own = match linkage.joints[joint].kind {
+        JointKind::Slot { base: [pivot, through], offset: 0.0, .. } => Some((joint, [pivot, through], through)),
+        JointKind::Slot { base: [pivot, through], .. } => Some((joint, [pivot, joint], through)),
+        JointKind::Yoke { from, line, .. } => Some((joint, line, from)),
+        _ => None,
     };
+    let line = linkage.slider_line(joint).filter(|line| fixed_line_direction(linkage, circuit, *line).is_none());
+    let of_line = line.map(|line| (line[0], line, joint));
+    [own, of_line].into_iter().flatten().filter_map(|slot| used_slot(circuit, slot))
+}
+
+/// The slot of a foot and a base that a joint uses.
+fn used_slot(circuit: &Circuit, (foot, [from, to], through): (JointId, [JointId; 2], JointId)) -> Option<Slot> {
     let in_base = |base: Vector, arm: Vector| Vector::new(base.dot(&arm), cross(base, arm)) / base.norm();
     let point = |joint, sample| circuit.positions.point(joint, sample);
     let arm = |i: usize| in_base(point(to, i) - point(from, i), point(through, i) - point(foot, i));
@@ -234,6 +235,20 @@ mod tests {
             assert!((-1e-12..=1.0 + 1e-12).contains(&part), "{part}");
             assert!(cross(to - from, pose[s] - from).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn a_yoke_on_a_moving_link_has_the_slot_that_guides_it() {
+        let mut builder = LinkageBuilder::default();
+        let [o, c] = [0.0, 5.0].map(|x| builder.fixed(&format!("P{x}"), Point::new(x, 0.0)));
+        let a = builder.crank("A", o, 1.0).unwrap();
+        let b = builder.dyad("B", [a, c], [4.0, 3.0], Side::Left).unwrap();
+        let y = builder.yoke("Y", a, ([c, b], 0.5), 80.0).unwrap();
+        let linkage = builder.build(vec![y], None, MotionOptions::default()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(36)));
+        let slots = Mechanism::new(&linkage, &motion.circuits[0]).slots;
+        assert_eq!(slots.iter().map(|slot| (slot.foot, slot.through)).collect::<Vec<_>>(), [(y, a), (c, y)]);
+        assert!(slots[1].ends.iter().all(|end| (end.y - 0.5).abs() < 1e-12), "{:?}", slots[1].ends);
     }
 
     #[test]

@@ -114,7 +114,7 @@ impl Template {
                 let rack = with_unless_zero(rack, &to_left, offset, "");
                 let rack =
                     rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
-                let rack = rack.with(radius.to_math_text()).with_words(self.mesh_of_rack(*crank, radius));
+                let rack = rack.with(radius.to_math_text()).with_words(self.mesh_of_rack(*crank, *along, radius));
                 let first = name(along[0]);
                 match is_zero(start) {
                     true => rack.with_words(format!(", at input 0 beside {first}")),
@@ -239,6 +239,15 @@ impl Template {
         matches!(&self.joints[joint].kind, JointKindTemplate::Slot { offset, .. } if is_further && is_zero(offset))
     }
 
+    /// Whether joints are on one link.
+    fn are_on_a_link(&self, joints: &[usize]) -> bool {
+        self.structure().is_ok_and(|linkage| {
+            let ids: Option<Vec<_>> =
+                joints.iter().map(|&joint| linkage.find_joint(&self.joints[joint].name)).collect();
+            ids.is_some_and(|ids| linkage.links.iter().any(|link| ids.iter().all(|id| link.position(*id).is_some())))
+        })
+    }
+
     /// Whether a fixed joint is a pivot, as of [`Linkage::pivots`](crate::linkage::Linkage::pivots); otherwise it is only a point of reference.
     fn is_pivot(&self, joint: usize) -> bool {
         self.structure().is_ok_and(|linkage| {
@@ -268,8 +277,8 @@ fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, af
 
 impl Template {
     /// The side of a pinion's pivot on which it moves its rack along the line: as it turns counter-clockwise with the input, that is the
-    /// right of the line.
-    fn mesh_of_rack(&self, crank: usize, radius: &CompiledExpression) -> String {
+    /// right of the line. On a link without the pivot the rack has no pitch line.
+    fn mesh_of_rack(&self, crank: usize, line: [usize; 2], radius: &CompiledExpression) -> String {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.side_as_drawn(side));
         let is_of_length = |parameter: &Parameter| {
             radius.name_or_number().as_deref() == Some(displayed_name(&parameter.name).as_str())
@@ -282,6 +291,12 @@ impl Template {
             None => format!("{right}, if negative {left},"),
         };
         match &self.joints[crank].kind {
+            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. }
+                if !self.are_on_a_link(&[*pivot, line[0], line[1]]) =>
+            {
+                let pivot = displayed_name(&self.joints[*pivot].name);
+                format!(", without a pitch line, for {pivot} is not on that link")
+            }
             JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => {
                 format!(", {sides} of {}", displayed_name(&self.joints[*pivot].name))
             }

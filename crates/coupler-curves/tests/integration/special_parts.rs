@@ -8,11 +8,16 @@ use coupler_curves::linkage::JointId;
 use coupler_curves::linkage_format::parse_templates;
 use coupler_curves::parts::{GivenSizes, Part, Parts, Slot};
 use coupler_curves::solve::Solver;
+use coupler_curves::template::Template;
+
+fn template(joints: &str, traced: &str, input: &str) -> Template {
+    let text = format!("[[linkage]]\nid = \"own\"\ntrace = [\"{traced}\"]\n{input}\n[linkage.joints]\n{joints}");
+    parse_templates(&text).unwrap().remove(0)
+}
 
 /// The parts of a linkage with these joints, and its poses.
 fn built(joints: &str, traced: &str, input: &str) -> (Parts, Vec<Vec<Point>>, Vec<String>) {
-    let text = format!("[[linkage]]\nid = \"own\"\ntrace = [\"{traced}\"]\n{input}\n[linkage.joints]\n{joints}");
-    let template = parse_templates(&text).unwrap().remove(0);
+    let template = template(joints, traced, input);
     let family = Family::single_cell(template.into(), &[], Sampling::Samples(90)).unwrap();
     let solved = Solver::new(&family).solve(0).unwrap();
     let names = solved.linkage.joints.iter().map(|joint| joint.name.clone()).collect();
@@ -119,7 +124,10 @@ fn a_rack_is_as_long_as_its_pinion_rolls_on_it() {
         "O = {{ fixed = [0, 0] }}\nC = {{ fixed = [5, 1] }}\nA = {{ crank = \"O\", length = 1 }}\nB = {{ dyad = [\"A\", \"C\"], lengths = [4, 3], side = \"left\" }}\n\
          R = {{ rack = \"A\", radius = 0.7, line = [\"A\", \"B\"], offset = -1.2 }}\n"
     );
-    let (parts, ..) = built(&joints, "R", "input = { from = \"-60 deg\", to = \"60 deg\" }");
+    let input = "input = { from = \"-60 deg\", to = \"60 deg\" }";
+    let construction = template(&joints, "R", input).construction(4).to_string();
+    assert!(construction.contains("without a pitch line, for O is not on that link"), "{construction}");
+    let (parts, ..) = built(&joints, "R", input);
     let rack = part(&parts, "rack R");
     assert!(rack.pitch_line.is_none() && rack.notes[0].starts_with("no pitch line"), "{:?}", rack.notes);
 }
