@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::program::{Instruction, Operator};
 use super::{CompiledExpression, Expression, Function};
-use crate::text::{divide_word, format_exactly};
+use crate::text::{divide_word, format_as_written, format_exactly, is_same_number, round_to_six_digits};
 
 /// A text in which parameters are symbols and exponents are raised.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,6 +50,15 @@ impl MathText {
     pub fn with(mut self, other: MathText) -> MathText {
         other.pieces.iter().for_each(|piece| self.push(&piece.text, piece.is_symbol, piece.is_raised));
         self
+    }
+
+    /// "a = 2", or "a ≈ 1.41421" of a number that is rounded.
+    #[must_use]
+    pub fn equal_to(self, mut right: MathText) -> MathText {
+        let rounded = right.pieces.first().and_then(|first| Some(first.text.strip_prefix('≈')?.to_owned()));
+        let sign = if rounded.is_some() { " ≈ " } else { " = " };
+        rounded.into_iter().for_each(|rounded| right.pieces[0].text = rounded);
+        self.with_words(sign).with(right)
     }
 
     /// Texts one after the other, with a separator between them.
@@ -278,6 +287,16 @@ impl CompiledExpression {
         self.expression.to_math_text()
     }
 
+    /// The same, with its decimal beside a constant that is no number: "√2 ≈ 1.41421".
+    pub fn to_dimension_text(&self) -> MathText {
+        let text = self.to_math_text();
+        let is_number = |value: f64| text.to_string() == format_as_written(value);
+        let Some(value) = self.constant_value().filter(|value| !is_number(*value)) else { return text };
+        let rounded = round_to_six_digits(value);
+        let sign = if is_same_number(value, rounded) { "=" } else { "≈" };
+        text.with_words(format!(" {sign} {}", format_exactly(rounded)))
+    }
+
     /// The same, with the names as they are written.
     pub(super) fn to_math_text_with_names(&self) -> MathText {
         self.expression.to_math_text_with(|name| MathText::from_words(self.expression.names[name].as_str()))
@@ -294,7 +313,7 @@ fn nothing() -> (MathText, Binding) {
 }
 
 fn set_number(value: f64) -> (MathText, Binding) {
-    let text = if value == std::f64::consts::PI { "π".to_owned() } else { format_exactly(value) };
+    let text = if value == std::f64::consts::PI { "π".to_owned() } else { format_as_written(value) };
     (MathText::from_words(text), if value < 0.0 { Binding::Sign } else { Binding::Atom })
 }
 

@@ -3,7 +3,9 @@
 use super::{Cell, Family, ParameterSpace};
 use crate::expression::{Caption, CompiledExpression, MathText, Unit, displayed_name, format_number};
 use crate::template::ParameterKind;
-use crate::text::{format_exactly, format_in_full, is_same_number};
+use crate::text::{
+    MAX_WRITTEN_DIGITS, count_digits, format_as_written, format_for_building, format_in_full, is_same_number,
+};
 
 /// A name that the caption of a cell should show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,20 +89,20 @@ impl Family {
     /// The text of each source that does not vary from cell to cell, of the names that are dimensions.
     fn dimension_texts(&self, sources: &[Source]) -> Vec<MathText> {
         let dimension = |(slot, source): (usize, &Source)| {
-            let left = MathText::from_name(&self.names[slot]).with_words(" = ");
+            let left = MathText::from_name(&self.names[slot]);
             let unit = self.unit(slot);
             match source {
                 Source::Varying => None,
-                Source::Constant(value) => Some(self.equation(slot, *value)),
-                Source::Formula(formula) => Some(left.with(formula.to_math_text())),
+                Source::Constant(value) => Some(self.equation_of(slot, building_number(*value))),
+                Source::Formula(formula) => Some(left.equal_to(formula.to_math_text())),
                 Source::ConstantFormula(formula, value) => {
                     let text = formula.to_math_text();
-                    let is_number = text.to_string() == format_exactly(*value);
+                    let is_number = text.to_string() == format_as_written(*value);
                     let (is_rounded, number) = rounded_number(*value, None);
                     let sign = if is_rounded { " ≈ " } else { " = " };
                     let value =
                         if is_number { text } else { text.with_words(sign).with_words(number.replace('-', "−")) };
-                    Some(left.with(value).with_words(unit))
+                    Some(left.equal_to(value).with_words(unit))
                 }
             }
         };
@@ -220,13 +222,20 @@ impl Family {
 /// A value that is given, as it is printed: with a number of decimals if these give it in full, and otherwise in full; whether it is
 /// rounded, to six significant digits, as one is that takes more digits than anyone writes and so was computed.
 pub(super) fn given_number(value: f64, decimals: Option<usize>) -> (bool, String) {
-    const MAX_WRITTEN_DIGITS: usize = 12;
     let (is_rounded, stated) = rounded_number(value, decimals);
     let in_full = format_in_full(value);
-    match in_full.chars().filter(char::is_ascii_digit).count() {
+    match count_digits(&in_full) {
         _ if !is_rounded => (false, stated),
         0..=MAX_WRITTEN_DIGITS => (false, in_full),
         _ => rounded_number(value, None),
+    }
+}
+
+/// A value that is given, as it is built by: a fraction has its decimal beside it.
+fn building_number(value: f64) -> (bool, String) {
+    match given_number(value, None) {
+        (false, number) if number.contains('/') => (false, format_for_building(value)),
+        given => given,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Side, Template};
 use crate::expression::{CompiledExpression, MathText};
 use crate::geometry::Vector;
-use crate::text::format_exactly;
+use crate::text::format_as_written;
 
 impl Template {
     /// What is on this side before the orientation is on this one on paper: a mirror image has the other.
@@ -22,7 +22,7 @@ impl Template {
             Some(3) => [y, -x.clone()],
             _ => [x.clone(), y],
         };
-        [x, y].map(|coordinate| coordinate.simplified_sign().to_math_text())
+        [x, y].map(|coordinate| coordinate.simplified_sign().to_dimension_text())
     }
 
     /// The direction of the crank at input 0, and in which it turns: "from the direction of −x, clockwise".
@@ -33,7 +33,7 @@ impl Template {
         let start = match (self.seen_from, self.quarter_turns()) {
             (Some(_), _) => format!("the x-axis of link {}", self.defined_link()),
             (None, Some(quarters)) => ["x", "y", "−x", "−y"][quarters].to_owned(),
-            (None, None) => format!("{}° from x", format_exactly(self.orientation.rotation_deg())),
+            (None, None) => format!("{}° from x", format_as_written(self.orientation.rotation_deg())),
         };
         format!("from the direction of {start}, {turning}")
     }

@@ -58,7 +58,7 @@ impl Template {
         };
         let length = |from: usize, value: &CompiledExpression| {
             let link = between([from, joint]);
-            if is_drawn { drawn_length(&link, value) } else { equation(&link, value.to_math_text()) }
+            if is_drawn { drawn_length(&link, value) } else { equation(&link, value.to_dimension_text()) }
         };
         match &placed.kind {
             JointKindTemplate::Fixed(position) => {
@@ -114,12 +114,12 @@ impl Template {
                 let rack = with_unless_zero(rack, &to_left, offset, "");
                 let rack =
                     rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
-                let rack = rack.with(radius.to_math_text()).with_words(self.mesh_of_rack(*crank, *along, radius));
+                let rack = rack.with(radius.to_dimension_text()).with_words(self.mesh_of_rack(*crank, *along, radius));
                 let first = name(along[0]);
                 match is_zero(start) {
                     true => rack.with_words(format!(", at input 0 beside {first}")),
                     false => {
-                        let at = rack.with_words(", at input 0 at ").with(start.to_math_text());
+                        let at = rack.with_words(", at input 0 at ").with(start.to_dimension_text());
                         at.with_words(format!(" from {first} along the line"))
                     }
                 }
@@ -261,18 +261,18 @@ fn drawn_length(link: &str, length: &CompiledExpression) -> MathText {
     match length.constant_value() {
         Some(value) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
         None if length.is_distance() => MathText::from_words(format!("link {link}")),
-        None => equation(link, length.to_math_text()),
+        None => equation(link, length.to_dimension_text()),
     }
 }
 
 /// "AB = a".
 fn equation(left: &str, right: MathText) -> MathText {
-    MathText::from_words(format!("{left} = ")).with(right)
+    MathText::from_words(left).equal_to(right)
 }
 
 /// The text with a dimension between words, unless the dimension is always 0.
 fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, after: &str) -> MathText {
-    if is_zero(value) { text } else { text.with_words(before).with(value.to_math_text()).with_words(after) }
+    if is_zero(value) { text } else { text.with_words(before).with(value.to_dimension_text()).with_words(after) }
 }
 
 impl Template {
@@ -348,8 +348,8 @@ fn rounded_equation(value: f64) -> String {
 
 fn coordinate(coordinate: &Coordinate) -> MathText {
     match coordinate {
-        Coordinate::Single(value) => value.to_math_text(),
-        Coordinate::Range { from, to, .. } => from.to_math_text().with_words(" to ").with(to.to_math_text()),
+        Coordinate::Single(value) => value.to_dimension_text(),
+        Coordinate::Range { from, to, .. } => from.to_dimension_text().with_words(" to ").with(to.to_dimension_text()),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Values of the input as expressions.
 
 use crate::expression::{CompiledExpression, MathText, Unit};
+use crate::text::format_as_written;
 
 /// A value of the input as an expression: an angle, evaluated in degrees, or a length.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +26,11 @@ impl InputValue {
             Some(Unit::Rad) if is_number => " rad",
             _ => "",
         };
-        self.value.to_math_text().with_words(unit)
+        let number = match (self.unit, self.value.constant_value()) {
+            // As a quotient, only its divisor would seem to be of degrees.
+            (Some(Unit::Deg), Some(value)) => MathText::from_words(format_as_written(value)),
+            _ => self.value.to_math_text(),
+        };
+        number.with_words(unit)
     }
 }

@@ -4,7 +4,7 @@ use crate::expression::{self, Dimension, Expression, Quantity, Scope, displayed_
 use crate::linkage::Load;
 use crate::problem::suggestion;
 use crate::template::Template;
-use crate::text::format_exactly;
+use crate::text::format_as_written;
 
 /// How a load is written.
 const EXAMPLE: &str = "\"100 on C at -90 deg\", or \"100 on C\" for a force against the motion of C";
@@ -44,9 +44,9 @@ impl Template {
     /// Its load as pages state it: "100 on C at −90°", in the direction that it has on paper, or "100 on C, against its motion".
     pub fn load_in_words(&self) -> Option<String> {
         let Load { joint, force, direction_deg } = self.load?;
-        let on = format!("{} on {}", format_exactly(force), displayed_name(&self.joints[joint].name));
+        let on = format!("{} on {}", format_as_written(force), displayed_name(&self.joints[joint].name));
         Some(match direction_deg {
-            Some(deg) => format!("{on} at {}°", format_exactly(self.direction_as_drawn(deg))),
+            Some(deg) => format!("{on} at {}°", format_as_written(self.direction_as_drawn(deg))),
             None => format!("{on}, against its motion"),
         })
     }

@@ -5,7 +5,10 @@ mod number;
 mod words;
 
 pub use interned::interned;
-pub use number::{exact_decimals, format_exactly, format_fixed, format_in_full, is_same_number, round_to_six_digits};
+pub use number::{
+    MAX_WRITTEN_DIGITS, count_digits, equation, exact_decimals, format_as_written, format_exactly, format_fixed,
+    format_for_building, format_in_full, is_same_number, round_to_six_digits,
+};
 pub use words::{is_control_or_directional, is_invisible, pluralize};
 
 // For the other crates of the workspace only.

@@ -6,6 +6,41 @@ pub fn format_exactly(value: f64) -> String {
     (value + 0.0).to_string().replace('-', "−")
 }
 
+/// A number as people write it: exactly, or if that takes more digits than anyone writes, for it was computed, in six significant digits after ≈.
+pub fn format_as_written(value: f64) -> String {
+    let (exact, rounded) = (format_exactly(value), round_to_six_digits(value));
+    match is_same_number(value, rounded) {
+        true => format_exactly(rounded),
+        false if count_digits(&exact) <= MAX_WRITTEN_DIGITS => exact,
+        false => format!("≈{}", format_exactly(rounded)),
+    }
+}
+
+/// A length as it is built: as people write it, and one that is a simple fraction with its decimal beside it.
+pub fn format_for_building(value: f64) -> String {
+    let in_full = format_in_full(value);
+    match in_full.contains('/') {
+        true => format!("{in_full} ≈ {}", format_exactly(round_to_six_digits(value))),
+        false => format_as_written(value),
+    }
+}
+
+/// "a = 2", or "a ≈ 1.41421" of a number that is rounded.
+pub fn equation(left: &str, right: &str) -> String {
+    match right.strip_prefix('≈') {
+        Some(rounded) => format!("{left} ≈ {rounded}"),
+        None => format!("{left} = {right}"),
+    }
+}
+
+/// The most digits that anyone writes.
+pub const MAX_WRITTEN_DIGITS: usize = 12;
+
+/// The number of digits of a number.
+pub fn count_digits(number: &str) -> usize {
+    number.chars().filter(char::is_ascii_digit).count()
+}
+
 /// A number with a fixed number of decimals; a zero has no minus sign.
 pub fn format_fixed(value: f64, decimals: usize) -> String {
     let number = format!("{value:.decimals$}");
@@ -40,9 +75,9 @@ pub fn format_in_full(value: f64) -> String {
     }
 }
 
-/// A number as a fraction with a denominator below 1000, if it is one up to rounding.
+/// A number as a fraction with a denominator up to 12, if it is one up to rounding: no one measures by other fractions.
 fn fraction(value: f64) -> Option<String> {
-    const MAX_DENOMINATOR: u32 = 999;
+    const MAX_DENOMINATOR: u32 = 12;
     let numerator = |denominator: u32| {
         let numerator = (value * f64::from(denominator)).round();
         is_same_number(numerator / f64::from(denominator), value).then_some(numerator)
@@ -74,6 +109,21 @@ mod tests {
         assert_eq!(format_in_full(third), "1 / 3");
         assert_eq!(format_in_full(-0.5 + 1.0 / 3.0), "−1 / 6");
         assert_eq!(format_in_full(6.0_f64.sqrt()).parse::<f64>(), Ok(6.0_f64.sqrt()));
+    }
+
+    #[test]
+    fn numbers_to_build_by_are_decimals_beside_simple_fractions() {
+        for (value, text) in [
+            (2.5, "2.5"),
+            (10.0 / 3.0, "10 / 3 ≈ 3.33333"),
+            (59.0 / 19.0, "≈3.10526"),
+            (-35.367_540_827_182_72, "≈−35.3675"),
+            (0.1 + 0.2, "0.3"),
+            (1.234_567_89, "1.23456789"),
+        ] {
+            assert_eq!(format_for_building(value), text);
+        }
+        assert_eq!(equation("AB", &format_as_written(2.0_f64.sqrt())), "AB ≈ 1.41421");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use coupler_curves::expression::{MathText, displayed_name};
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::linkage::{JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::template::{InputValue, JointKindTemplate, JointTemplate, Template};
-use coupler_curves::text::format_exactly;
+use coupler_curves::text::format_as_written;
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
 /// the dimensions that are the same for all.
@@ -171,7 +171,7 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
     let frame = template.seen_from.map(|[origin, x]| format!("drawn with {} and {} fixed", name(origin), name(x)));
     let rotation = match template.rotation_before_drawing() {
         0.0 => None,
-        deg => Some(format!("drawn turned by {}°: coordinates are those before", format_exactly(deg))),
+        deg => Some(format!("drawn turned by {}°: coordinates are those before", format_as_written(deg))),
     };
     let laid_out = template.joints.iter().any(|joint| joint.drawn.is_some());
     let laid_out =

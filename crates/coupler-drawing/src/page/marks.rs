@@ -11,7 +11,7 @@ use coupler_curves::geometry::{Bounds, Point, distance_to_segment, simplify_poly
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::measure::{Measure, MeasureSet, StraightPortion, Symmetry, SymmetryAxis};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_curves::text::{format_exactly, round_to_six_digits};
+use coupler_curves::text::{format_as_written, format_exactly, round_to_six_digits};
 
 /// The measures that pages of every layout and the index of a book use, in addition to those in captions.
 pub(super) const PAGE_MEASURES: MeasureSet = MeasureSet::EMPTY
@@ -81,7 +81,7 @@ fn tolerance_fact(solved: &SolvedCell) -> Option<String> {
     let moves = solved.curves.iter().map(|curve| curve.measure(Measure::TOLERANCE_WORST));
     let most = moves.collect::<Option<Vec<f64>>>()?.into_iter().fold(0.0, f64::max);
     let curves = if solved.curves.len() == 1 { "the curve" } else { "the curves" };
-    let tolerance = format_exactly(solved.linkage.tolerance?);
+    let tolerance = format_as_written(solved.linkage.tolerance?);
     let shown = solved.curves.iter().map(|curve| greatest_shown_move(solved, curve)).fold(0.0, f64::max);
     let by = if most > shown {
         format!("more than {}", format_with_digits(shown, 2))

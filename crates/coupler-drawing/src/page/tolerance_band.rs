@@ -7,12 +7,13 @@ use super::theme::Theme;
 use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Vector, cross};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_curves::text::format_exactly;
+use coupler_curves::text::format_as_written;
 
 /// The symbol of the band, in the ink of the first curve that has one.
 pub(super) fn symbol(solved: &SolvedCell, ink: impl Fn(&MeasuredCurve) -> Color, theme: &Theme) -> Option<Symbol> {
     let curve = solved.curves.iter().find(|curve| curve.moves.is_some())?;
-    let meaning = format!("where the curve may be with every length ± {}", format_exactly(solved.linkage.tolerance?));
+    let meaning =
+        format!("where the curve may be with every length ± {}", format_as_written(solved.linkage.tolerance?));
     Some(Symbol { mark: Mark::Line(theme.stroke(tint(ink(curve), theme), 5.0 * theme.curve_width)), meaning })
 }
 

@@ -15,7 +15,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
-use coupler_curves::text::format_in_full;
+use coupler_curves::text::{equation, format_for_building};
 
 /// The description of the linkage of a page: lines, and the lines of its key, if it has one.
 pub(super) struct Description {
@@ -103,14 +103,17 @@ pub(super) fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String>
     let output = output_joints(linkage);
     let line = |(role, joints): (&str, [JointId; 2])| {
         let names = join_names(&joints.map(|joint| linkage.joints[joint].name.as_str()));
-        let length = format_in_full(length(linkage, joints)?);
+        let length = format_for_building(length(linkage, joints)?);
         let label = labels.iter().find(|label| is_same(label.joints, joints)).map(|label| label.text.as_str());
         let is_named = label.is_some_and(|label| label.parse::<f64>().is_err());
-        let named = label.filter(|_| is_named).map_or(String::new(), |label| format!("{} = ", displayed_name(label)));
+        let length = match label.filter(|_| is_named) {
+            Some(label) => equation(&displayed_name(label), &length),
+            None => length,
+        };
         let is_output = output.is_some_and(|output| is_same(joints, output));
         let ends = if joints == [o, c] { slanted_ends(linkage, joints) } else { None };
         let ends = ends.unwrap_or_default();
-        Some(format!("{role} {names}: {named}{length}{ends}{}", if is_output { ", the output" } else { "" }))
+        Some(format!("{role} {names}: {length}{ends}{}", if is_output { ", the output" } else { "" }))
     };
     [("frame", [o, c]), ("crank", [o, a]), ("coupler", [a, b]), ("rocker", [c, b])]
         .into_iter()
@@ -123,7 +126,7 @@ fn slanted_ends(linkage: &Linkage, joints: [JointId; 2]) -> Option<String> {
     let [JointKind::Fixed(from), JointKind::Fixed(to)] = joints.map(|joint| &linkage.joints[joint].kind) else {
         return None;
     };
-    let coordinates = |at: &Point| [at.x, at.y].map(format_in_full).join(", ");
+    let coordinates = |at: &Point| [at.x, at.y].map(format_for_building).join(", ");
     let is_slanted = linkage.seen_from.is_none() && (from.y != to.y || from.x > to.x);
     is_slanted.then(|| format!(", from ({}) to ({})", coordinates(from), coordinates(to)))
 }
