@@ -31,7 +31,7 @@ pub struct Arguments {
     at: Option<String>,
     /// With --at, only the poses with the first two-valued joint on this side: 1 left, -1 right; those of all circuits,
     /// not only of the one through the start pose.
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
+    #[arg(long, value_name = "N", value_parser = ["1", "-1"], requires = "at")]
     branch: Option<String>,
     /// A force on a joint, for the torque with which the input moves it: "100 on C at -90 deg", from the x-axis, or "100 on C" against the
     /// motion of C.

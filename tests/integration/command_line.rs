@@ -352,6 +352,14 @@ fn a_negative_number_is_a_value_with_an_error_of_its_own() {
         (["export", "--linkage", "jansen", "--parts", "--hole", "-3"], "a length greater than 0"),
         (["export", "--linkage", "jansen", "--parts", "--chord", "-1"], "a number from 1e-9 to 0.1"),
         (["sweep", "--by", "x", "atlas.toml", "--top", "-3"], "not in 1..="),
+        (["design", "straight-line", "--p", "-1", "--best", "-3"], "--best: -3 is not a whole number from 1"),
+        (["design", "straight-line", "--length", "-1", "--mu-min", "-3"], "--mu-min: "),
+        (["design", "four-bar", "--minimize", "-length", "--range", "-3"], "`-3`"),
+        (["design", "four-bar", "--minimize", "-length", "--fix", "-3"], "`-3`"),
+        (["check", "nix.toml", "--rtol", "1", "--atol", "-1"], "must not be negative"),
+        (["check", "nix.toml", "--atol", "1", "--rtol", "-1"], "must not be negative"),
+        (["check", "nix.toml", "--atol", "1", "--measure-rtol", "-1"], "must not be negative"),
+        (["inspect", "four-bar", "--at", "-1", "--branch", "-2"], "[possible values: 1, -1]"),
     ] {
         let (code, _, error) = run(Path::new("."), &arguments);
         assert_eq!(code, 2);

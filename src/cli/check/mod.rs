@@ -42,7 +42,6 @@ pub struct Arguments {
         long,
         value_name = "LENGTH",
         value_parser = parse_tolerance,
-        allow_negative_numbers = true,
         help = tolerance_help(
             "The greatest distance a point may move, in the unit of the manifest",
             |tolerances| tolerances.atol
@@ -53,7 +52,6 @@ pub struct Arguments {
         long,
         value_name = "RATIO",
         value_parser = parse_tolerance,
-        allow_negative_numbers = true,
         help = tolerance_help(
             "The greatest distance a point may move, relative to the size of its curve; a move is reported if it \
              exceeds both --atol and --rtol",
@@ -65,7 +63,6 @@ pub struct Arguments {
         long,
         value_name = "RATIO",
         value_parser = parse_tolerance,
-        allow_negative_numbers = true,
         help = tolerance_help("The greatest relative change of a measure", |tolerances| tolerances.measure_rtol)
     )]
     measure_rtol: Option<f64>,

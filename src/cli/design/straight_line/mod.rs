@@ -58,7 +58,6 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "N",
-        allow_hyphen_values = true,
         default_value_t = Requirements::default().max_designs.to_string(),
         help = best_help()
     )]

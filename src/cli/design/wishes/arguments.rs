@@ -29,10 +29,10 @@ pub struct WishArguments {
     pub(super) minimize: Vec<String>,
     /// The range of a parameter, and the step of its values if not any can be made or bought; may be repeated: --range "r = 20..60 by 1".
     /// Others range from a quarter to four times their defaults, shifts by two typical lengths to either side, angles by a turn.
-    #[arg(long, value_name = "NAME=FROM..TO", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=FROM..TO")]
     pub(super) range: Vec<String>,
     /// Keep a parameter at its default or at a value, which may use others; may be repeated: --fix s --fix "p = 100".
-    #[arg(long, value_name = "NAME[=EXPR]", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME[=EXPR]")]
     pub(super) fix: Vec<String>,
     /// The greatest distance of two joints of a link, in the unit of the lengths; inf for any.
     #[arg(long, value_name = "X", default_value = "inf", allow_hyphen_values = true)]
