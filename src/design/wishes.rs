@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, format_significant, manifest_families};
-use coupler_curves::text::round_to_six_digits;
+use coupler_curves::text::{round_apart, round_to_six_digits};
 use coupler_find::{DesignAnswer, DesignMiss, DesignOptions, DesignSearch, DesignSpace, Wishes, manifest_head};
 
 use crate::threads::Threads;
@@ -66,7 +66,11 @@ impl Designs {
         let remedy = |DesignMiss { wish, nearest }: &DesignMiss| {
             let comes_to = match &nearest.wishes[*wish].value {
                 Some((subject, value)) if value.is_nan() => format!("{subject} has no value"),
-                Some((subject, value)) => format!("{subject} comes to {} at best", round_to_six_digits(*value)),
+                Some((subject, value)) => {
+                    let bound = wishes.wishes[*wish].bound();
+                    let shown = bound.map_or_else(|| round_to_six_digits(*value), |bound| round_apart(*value, bound));
+                    format!("{subject} comes to {shown} at best")
+                }
                 None => "it is not met".to_owned(),
             };
             format!("`{}`: {comes_to} {others}: {}", wishes.wishes[*wish].text(), parameters(nearest))

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
-use crate::text::round_to_six_digits;
+use crate::text::{round_apart, round_to_six_digits};
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
 ///
@@ -41,7 +41,8 @@ pub enum AssemblyError {
     /// The base of a dyad is longer than its links reach, at every input.
     #[error(
         "{joint} cannot be placed: {} and {} are {} or more apart, links of {} and {} reach {}",
-        base[0], base[1], Short(*least), Short(lengths[0]), Short(lengths[1]), Short(lengths[0] + lengths[1])
+        base[0], base[1], Apart(*least, lengths[0] + lengths[1]), Short(lengths[0]), Short(lengths[1]),
+        Apart(lengths[0] + lengths[1], *least)
     )]
     BaseTooLong {
         /// The joint of the dyad.
@@ -56,7 +57,8 @@ pub enum AssemblyError {
     /// The base of a dyad is shorter than the difference of its links, at every input.
     #[error(
         "{joint} cannot be placed: {} and {} are {} or less apart, links of {} and {} need {}",
-        base[0], base[1], Short(*greatest), Short(lengths[0]), Short(lengths[1]), Short((lengths[0] - lengths[1]).abs())
+        base[0], base[1], Apart(*greatest, (lengths[0] - lengths[1]).abs()), Short(lengths[0]), Short(lengths[1]),
+        Apart((lengths[0] - lengths[1]).abs(), *greatest)
     )]
     BaseTooShort {
         /// The joint of the dyad.
@@ -111,7 +113,7 @@ pub enum AssemblyError {
     /// The line of a slide stays out of reach of its link.
     #[error(
         "{joint} cannot be placed: its line stays {} or more from {base}, and the link of {} is too short",
-        Short(*distance), Short(*length)
+        Apart(*distance, *length), Apart(*length, *distance)
     )]
     LineTooFar {
         /// The joint that slides.
@@ -126,7 +128,7 @@ pub enum AssemblyError {
     /// The offset of a slot is greater than the distance of its pivot from the joint that slides through.
     #[error(
         "{joint} cannot be placed: {} and {} are {} or less apart, and the offset is {}",
-        base[0], base[1], Short(*greatest), Short(*offset)
+        base[0], base[1], Apart(*greatest, *offset), Apart(*offset, *greatest)
     )]
     OffsetTooLong {
         /// The foot of the slot's line.
@@ -217,8 +219,8 @@ pub enum AssemblyError {
     },
     /// The input does not reach all of the range: some of the motion is missing.
     #[error(
-        "the input goes from {} to {}{unit} only, of the requested {} to {}{unit}",
-        Rounded(reached[0]), Rounded(reached[1]), requested[0], requested[1], unit = if *in_degrees { " deg" } else { "" }
+        "the input goes from {}{unit} only, of the requested {} to {}{unit}",
+        Reached(*reached, *requested), requested[0], requested[1], unit = if *in_degrees { " deg" } else { "" }
     )]
     RangeNotReached {
         /// The least and the greatest input of the circuit.
@@ -260,11 +262,42 @@ impl fmt::Display for Short {
     }
 }
 
-/// Prints up to four decimals.
-struct Rounded(f64);
+/// Prints the first of two numbers that are compared, in as many digits as tell them apart, at least up to six significant ones.
+struct Apart(f64, f64);
 
-impl fmt::Display for Rounded {
+impl fmt::Display for Apart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", (self.0 * 1e4).round() / 1e4 + 0.0)
+        write!(f, "{}", round_apart(self.0, self.1))
+    }
+}
+
+/// Prints the ends of a range up to four decimals, or with all digits if those are of the range that was requested, which it is not.
+struct Reached([f64; 2], [f64; 2]);
+
+impl fmt::Display for Reached {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounded = self.0.map(|end| (end * 1e4).round() / 1e4 + 0.0);
+        let [from, to] = if rounded == self.1 { self.0 } else { rounded };
+        write!(f, "{from} to {to}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_are_compared_differ() {
+        let [joint, a, c] = ["B", "A", "C"].map(str::to_owned);
+        let error = AssemblyError::BaseTooShort { joint, base: [a, c], lengths: [5.5, 3.0], greatest: 2.499_999_999_9 };
+        let message = "B cannot be placed: A and C are 2.4999999999 or less apart, links of 5.5 and 3 need 2.5";
+        assert_eq!(error.to_string(), message);
+        let range =
+            |reached| AssemblyError::RangeNotReached { reached, requested: [0.0, 30.0], in_degrees: true }.to_string();
+        assert_eq!(
+            range([0.0, 29.999_999]),
+            "the input goes from 0 to 29.999999 deg only, of the requested 0 to 30 deg"
+        );
+        assert_eq!(range([1e-17, 29.5]), "the input goes from 0 to 29.5 deg only, of the requested 0 to 30 deg");
     }
 }

@@ -13,4 +13,4 @@ pub use words::{is_control_or_directional, is_invisible, pluralize};
 
 // For the other crates of the workspace only.
 #[doc(hidden)]
-pub use words::divide_word;
+pub use {number::round_apart, words::divide_word};

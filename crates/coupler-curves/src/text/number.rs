@@ -53,6 +53,15 @@ pub fn round_to_six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
+/// A value rounded to the fewest significant digits, at least six, in which it differs from another one.
+pub fn round_apart(value: f64, other: f64) -> f64 {
+    let rounded = |value: f64, digits: usize| format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    (6..17)
+        .map(|digits| [value, other].map(|value| rounded(value, digits)))
+        .find(|[a, b]| a != b)
+        .map_or(value, |[a, _]| a)
+}
+
 /// Whether two values stand for one number, up to rounding: coordinates on a link were divided and are multiplied by the length of
 /// their base, which are two roundings, of half an epsilon each.
 pub fn is_same_number(a: f64, b: f64) -> bool {
@@ -124,6 +133,19 @@ mod tests {
             assert_eq!(format_for_building(value), text);
         }
         assert_eq!(equation("AB", &format_as_written(2.0_f64.sqrt())), "AB ≈ 1.41421");
+    }
+
+    #[test]
+    fn numbers_that_are_compared_are_told_apart() {
+        for (a, b, texts) in [
+            (2.5, 3.25, ["2.5", "3.25"]),
+            (2.5, 2.500001, ["2.5", "2.500001"]),
+            (2.4999999996, 2.5, ["2.4999999996", "2.5"]),
+            (1.0, 1.0 + f64::EPSILON, ["1", "1.0000000000000002"]),
+            (3.0, 3.0, ["3", "3"]),
+        ] {
+            assert_eq!([round_apart(a, b), round_apart(b, a)].map(|x| x.to_string()), texts);
+        }
     }
 
     #[test]

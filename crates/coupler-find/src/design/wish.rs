@@ -189,7 +189,7 @@ impl Wish {
     }
 
     /// The number that the other side is, if it is one.
-    pub(super) fn bound(&self) -> Option<f64> {
+    pub fn bound(&self) -> Option<f64> {
         let Comparison { left, right, .. } = self.comparison.as_ref()?;
         [left, right].into_iter().find(|side| side.slots().is_empty()).map(|side| side.evaluate(|_| f64::NAN))
     }
