@@ -70,10 +70,9 @@ pub(super) fn compile(planned: &PlannedFamily, text: &str) -> Result<CompiledExp
     let family = &planned.family;
     let scope = Family::scope(&family.names, family.template.is_driven_by_length());
     let compiled = Expression::parse(text).and_then(|parsed| parsed.compile(&scope, Kind::Number));
-    let compiled = compiled.map_err(|error| match (used_word(text), error.help.as_str()) {
-        (Some(word), _) => format!("`{word}` is a word, and what is least must be a number"),
-        (None, "") => error.to_string(),
-        (None, help) => format!("{error}; {help}"),
+    let compiled = compiled.map_err(|error| match used_word(text) {
+        Some(word) => format!("`{word}` is a word, and what is least must be a number"),
+        None => error.message_with_help(),
     })?;
     let helpers = family.template.parameters.len()..family.names.len();
     match compiled.slots().iter().find(|slot| helpers.contains(slot)) {

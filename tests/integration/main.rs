@@ -40,6 +40,7 @@ mod golden;
 mod hostile_text;
 mod import;
 mod imports;
+mod independent_problems;
 mod inputs;
 mod inspect_output;
 mod lettering;

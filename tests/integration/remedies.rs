@@ -139,6 +139,8 @@ fn conditions_on_words_and_unknown_names_have_short_remedies() {
     let names = "it can be one of frame, crank, coupler, rocker, along, across, x, y, turn, or a measure: \
                  `coupler-atlas list measures` lists them\n";
     assert!(err.contains(&format!("unknown name `foo`; {names}")), "{err}");
+    let err = find("foo > 1 and bar < 2");
+    assert!(err.contains("unknown name `foo`; ") && err.contains("unknown name `bar`; "), "{err}");
     for condition in ["class = crank-rocker", "class == crank-rocker"] {
         fs::write(folder.path().join("atlas.toml"), format!("{FOUR_BAR}where = \"{condition}\"\n")).unwrap();
         let err = refused(folder.path(), &["validate"]);

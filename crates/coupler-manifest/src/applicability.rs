@@ -13,7 +13,8 @@ use coupler_curves::template::{Linkage, Template};
 pub(crate) fn check(template: &Template, fields: &Fields, parser: &mut TomlParser) {
     // What is wrong with the joints is reported with the linkage.
     let Ok(structure) = template.structure() else { return };
-    let linkage = CheckedLinkage { template, structure: &structure };
+    let gives = |key: &str| fields.get(key).is_some();
+    let linkage = CheckedLinkage { template, structure: &structure, given: [gives("load"), gives("tolerance")] };
     for (key, quantities) in [("measures", Quantities::Measures), ("columns", Quantities::Columns)] {
         for item in fields.get(key).map_or(&[][..], one_or_more) {
             linkage.check_name(item.get_ref().as_str().unwrap_or_default(), quantities, item.span(), parser);
@@ -33,7 +34,7 @@ pub(crate) fn check(template: &Template, fields: &Fields, parser: &mut TomlParse
         one_or_more(value).iter().for_each(|item| check_expression(item, Quantities::InCharts, parser));
     }
     for value in ["caption", "note"].into_iter().filter_map(|key| fields.get(key)) {
-        let Ok(caption) = Caption::parse(value.get_ref().as_str().unwrap_or_default()) else { continue };
+        let (caption, _) = Caption::parse_partly(value.get_ref().as_str().unwrap_or_default());
         for (expression, start) in caption.expressions() {
             for name in expression.names().iter().filter(|name| !is_own_name(name, fields)) {
                 let span = expression.name_span(name).map(|span| start + span.start..start + span.end);
@@ -58,6 +59,8 @@ enum Quantities {
 struct CheckedLinkage<'a> {
     template: &'a Template,
     structure: &'a Linkage,
+    /// Whether the family gives it a load, and a tolerance, which may be ones that cannot be read.
+    given: [bool; 2],
 }
 
 impl CheckedLinkage<'_> {
@@ -74,7 +77,13 @@ impl CheckedLinkage<'_> {
                 measure.filter(|measure| !measure.is_word).map(|measure| measure.subject).or(column)
             }
         };
-        let Some(subject) = subject.filter(|subject| !subject.includes(self.structure)) else { return };
+        let [has_load, has_tolerance] = self.given;
+        let is_included = |subject: &Subject| match subject {
+            Subject::WithLoad if has_load => true,
+            Subject::WithTolerance if has_tolerance => true,
+            subject => subject.includes(self.structure),
+        };
+        let Some(subject) = subject.filter(|subject| !is_included(subject)) else { return };
         let id = &self.template.id;
         let message = format!("`{id}` has no `{name}`, which is defined for {} only", subject.description());
         // Only a column has this name.

@@ -293,22 +293,22 @@ pub(crate) fn read<'t>(
     let gallery = get("gallery").map_or(Some(None), |value| address(value, parser).map(Some));
     let chapters = match (&fields, get("chapter")) {
         (Some(fields), Some(_)) => {
-            let read: Vec<_> =
-                tables(fields, "chapter", parser)?.iter().map(|value| chapter(value, families, parser)).collect();
-            read.into_iter().collect()
+            read_tables(fields, "chapter", |value, parser| chapter(value, families, parser), parser)
         }
         _ => Some(vec![change_points(planned)]),
     };
     let lists = match (&fields, get("list")) {
-        (Some(fields), Some(_)) => {
-            let read: Vec<_> =
-                tables(fields, "list", parser)?.iter().map(|value| list(value, families, parser)).collect();
-            read.into_iter().collect()
-        }
+        (Some(fields), Some(_)) => read_tables(fields, "list", |value, parser| list(value, families, parser), parser),
         _ => Some(DEFAULT_LISTS.iter().filter_map(|default| default_list(default, planned)).collect()),
     };
     let manifest_inputs =
         value.map_or(String::new(), |value| coupler_curves::linkage_format::canonical_toml(value, &[]));
+    let room = match (get("binding"), binding, page) {
+        (Some(value), Some(binding), Some(page)) => {
+            check_room(value, &page.clone().with_gutter(binding), planned, parser)
+        }
+        _ => Some(()),
+    };
     let plan = BookPlan {
         plates_only: plates_only?,
         how_to_read: how_to_read?,
@@ -322,10 +322,7 @@ pub(crate) fn read<'t>(
         gallery: gallery?,
         manifest_inputs,
     };
-    if let (Some(value), Some(page)) = (get("binding"), page) {
-        check_room(value, &plan.page_options(page), planned, parser)?;
-    }
-    Some(plan)
+    room.map(|()| plan)
 }
 
 /// The address of a folder or a page on the web.
@@ -418,18 +415,22 @@ impl Families<'_> {
     }
 }
 
-/// The tables of a list of tables, which are not too many.
-fn tables<'v, 't>(fields: &Fields<'v, 't>, key: &str, parser: &mut TomlParser<'t>) -> Option<&'v [TomlValue<'t>]> {
+/// Reads the tables of a list of tables, which are not too many; `None` if one cannot be read.
+fn read_tables<'t, T>(
+    fields: &Fields<'_, 't>,
+    key: &str,
+    read: impl Fn(&TomlValue<'t>, &mut TomlParser<'t>) -> Option<T>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<T>> {
     let tables = fields.tables(key, parser);
     report_repeated_titles(tables, key, parser);
-    match tables.get(MAX_TABLES) {
-        None => Some(tables),
-        Some(first) => {
-            let message = format!("there are {} tables `{key}`, more than the limit of {MAX_TABLES}", tables.len());
-            parser.report(Problem::error(first.span(), message).with_help("leave some out"));
-            None
-        }
+    if let Some(first) = tables.get(MAX_TABLES) {
+        let message = format!("there are {} tables `{key}`, more than the limit of {MAX_TABLES}", tables.len());
+        parser.report(Problem::error(first.span(), message).with_help("leave some out"));
     }
+    // All of them are read, so that all problems are reported.
+    let read: Vec<Option<T>> = tables.iter().take(MAX_TABLES).map(|value| read(value, parser)).collect();
+    read.into_iter().collect()
 }
 
 /// The most characters of a title and of a note: more would not fit the contents, or the head of a page.
@@ -549,21 +550,26 @@ fn applies(planned: &PlannedFamily, criteria: &ListCriteria) -> bool {
     planned.chart.is_none() && { expressions }.all(|expression| computes(&planned.family, expression))
 }
 
-/// The compiled results of an expression for the families that have its names; reports the problem of the first family
-/// if no family has them.
+/// The compiled results of an expression for the families that have its names, and of which `applies` is true; reports the
+/// problems of the first family if no family has them.
 fn for_families<'t, T>(
     Families { planned: families, are_complete }: Families,
     parser: &mut TomlParser<'t>,
     knows_names: impl Fn(&Scope) -> bool,
-    read: impl Fn(&PlannedFamily, &Scope, &mut TomlParser<'t>) -> Option<T>,
+    read: impl Fn(&Scope, &mut TomlParser<'t>) -> Option<T>,
+    applies: impl Fn(&PlannedFamily, &T) -> bool,
 ) -> Option<Vec<Option<T>>> {
     let is_known: Vec<bool> = families.iter().map(|planned| knows_names(&scope(&planned.family))).collect();
     // Names that no family has are reported once, with those of the first.
-    let first = usize::from(are_complete && !is_known.contains(&true));
+    let is_unknown = !is_known.contains(&true);
+    let first = usize::from(are_complete && is_unknown);
+    if is_unknown && (!are_complete || families.is_empty()) {
+        parser.with_unknown_names(|parser| read(&Family::scope(&[], false), parser))?;
+    }
     let mut found = Vec::new();
     for (k, (planned, is_known)) in families.iter().zip(is_known).enumerate() {
-        let is_read = is_known || k < first;
-        found.push(if is_read { Some(read(planned, &scope(&planned.family), parser)?) } else { None });
+        let read = if is_known || k < first { Some(read(&scope(&planned.family), parser)?) } else { None };
+        found.push(read.filter(|read| applies(planned, read)));
     }
     Some(found)
 }
@@ -581,12 +587,11 @@ fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParse
     let names = names_in(condition);
     let knows = |scope: &Scope| names.iter().all(|name| scope.index_of(name).is_some());
     let conditions = condition.and_then(|value| {
-        for_families(families, parser, knows, |planned, scope, parser| {
-            let condition = read_filter(value, scope, parser)?;
-            Some((planned.chart.is_none() && computes(&planned.family, &condition)).then_some(condition))
+        let read = |scope: &Scope, parser: &mut TomlParser<'t>| read_filter(value, scope, parser);
+        for_families(families, parser, knows, read, |planned, condition| {
+            planned.chart.is_none() && computes(&planned.family, condition)
         })
-    });
-    let conditions: Vec<Option<CompiledExpression>> = conditions?.into_iter().map(Option::flatten).collect();
+    })?;
     warn_if_none_applies(&conditions, "chapter", value, families, parser);
     Some(PlannedChapter { title: title?, conditions, is_given: true })
 }
@@ -595,10 +600,10 @@ fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParse
 fn columns<'v, 't>(fields: &Fields<'v, 't>, parser: &mut TomlParser<'t>) -> (&'v [TomlValue<'t>], Option<Vec<String>>) {
     let Some(value) = fields.get("columns") else { return (&[], Some(Vec::new())) };
     let Some(columns) = parser.list(value) else { return (&[], None) };
-    if !(1..=MAX_COLUMNS).contains(&columns.len()) {
+    let are_few = (1..=MAX_COLUMNS).contains(&columns.len());
+    if !are_few {
         let message = format!("there are {} columns: expected 1 to {MAX_COLUMNS}", columns.len());
-        parser.report(Problem::error(value.span(), message));
-        return (&[], None);
+        parser.report(Problem::error(value.span(), message).with_help("leave some out, or leave `columns` out"));
     }
     let head = |column: &TomlValue<'t>| {
         let head = column_head(&short_text(column, MAX_TITLE, parser)?);
@@ -614,7 +619,7 @@ fn columns<'v, 't>(fields: &Fields<'v, 't>, parser: &mut TomlParser<'t>) -> (&'v
         parser.report(problem.with_help("leave out one of them"));
         return (columns, None);
     }
-    (columns, heads.into_iter().collect())
+    (columns, heads.into_iter().collect::<Option<_>>().filter(|_| are_few))
 }
 
 /// The head of a column: the text before the first colon and space, without values.
@@ -634,7 +639,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let (filter, caption) = (fields.get("where"), fields.get("caption"));
     let (columns, heads) = columns(&fields, parser);
     let mut names = [filter, sort].map(names_in).concat();
-    let parsed = |value: &TomlValue| Caption::parse(value.get_ref().as_str()?).ok();
+    let parsed = |value: &TomlValue| Some(Caption::parse_partly(value.get_ref().as_str()?).0);
     let captions: Vec<Caption> = caption.into_iter().chain(columns).filter_map(parsed).collect();
     names
         .extend(captions.iter().flat_map(Caption::expressions).flat_map(|(expression, _)| expression.names().to_vec()));
@@ -642,7 +647,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let knows =
         |scope: &Scope| names.iter().all(|name| words.contains(&name.as_str()) || scope.index_of(name).is_some());
     let sort = sort.filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser));
-    let criteria = for_families(families, parser, knows, |planned, scope, parser| {
+    let read = |scope: &Scope, parser: &mut TomlParser<'t>| {
         let filter = match filter {
             None => Some(None),
             Some(value) => read_filter(value, scope, parser).map(Some),
@@ -654,10 +659,9 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
         };
         let columns: Vec<_> = columns.iter().map(|value| parser.caption(value, scope, &words)).collect();
         let columns = columns.into_iter().collect::<Option<_>>();
-        let criteria = ListCriteria { filter: filter?, sort: sort?, caption: caption?, columns: columns? };
-        Some(applies(planned, &criteria).then_some(criteria))
-    });
-    let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
+        Some(ListCriteria { filter: filter?, sort: sort?, caption: caption?, columns: columns? })
+    };
+    let criteria = for_families(families, parser, knows, read, applies)?;
     warn_if_none_applies(&criteria, "list", value, families, parser);
     let parsed = |value: &TomlValue| value.get_ref().as_str().and_then(|text| Expression::parse(text).ok());
     let emphasis = emphasis_of(sort.and_then(parsed).as_ref(), filter.and_then(parsed).as_ref());

@@ -1,10 +1,11 @@
 //! Checks the cells of a family.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use crate::parameter_sets::TableColumns;
 use crate::plan::PlannedFamily;
+use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Cell, CellError, Family, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::motion::MAX_CIRCUIT_BYTES;
@@ -169,19 +170,30 @@ pub(crate) fn check(
         |name: &String| has_problems && (!is_parameter(name) || misspelt.contains(name) || is_unread(name));
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
+    let derived: HashMap<usize, &CompiledExpression> =
+        family.derived.iter().map(|(slot, value)| (*slot, value)).collect();
     for k in cells {
         let cell = family.cell(k);
-        for error in family.cell_errors(&cell) {
-            let is_reported = match &error {
+        let errors = family.cell_errors(&cell);
+        let slot = |error: &CellError| match error {
+            CellError::Value { slot, .. } => Some(*slot),
+            CellError::Missing(_) | CellError::Template(_) => None,
+        };
+        let wrong: HashSet<usize> = errors.iter().filter_map(slot).collect();
+        // A value that is derived from a wrong one may be right with another.
+        let follows =
+            |slot: &usize| derived.get(slot).is_some_and(|value| value.slots().iter().any(|slot| wrong.contains(slot)));
+        for error in &errors {
+            let is_reported = match error {
                 CellError::Missing(name) => is_missing_reported(name),
                 // What could not be read, or is derived from it, is not a number.
-                CellError::Value { slot, .. } => !unread.is_empty() && !cell.values[*slot].is_finite(),
+                CellError::Value { slot, .. } => follows(slot) || !unread.is_empty() && !cell.values[*slot].is_finite(),
                 CellError::Template(_) => false,
             };
             if is_reported {
                 continue;
             }
-            let (kind, slot, help) = match &error {
+            let (kind, slot, help) = match error {
                 CellError::Missing(name) => {
                     let help = match table {
                         Some(table) => format!("give it in a column of `{}`, or in `let`", table.shown_path()),

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use crate::names::FamilyNames;
-use coupler_curves::expression::{CompiledExpression, Expression, Scope};
+use coupler_curves::expression::{CompiledExpression, Scope};
 use coupler_curves::family::{MAX_CELLS, MEASURES, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, one_or_more};
 use coupler_curves::measure::Measure;
-use coupler_curves::problem::{Problem, suggestion_among};
+use coupler_curves::problem::{Problem, Span, suggestion_among};
 use coupler_curves::template::Template;
 use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
 
@@ -59,94 +59,95 @@ pub(crate) fn numeric_measures() -> Vec<&'static str> {
 
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
 
-/// Checks the syntax of a chart's expressions, when the names they may use are not known.
-pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
-    let Some(fields) = fields.get("chart").and_then(|value| Fields::from_value(value, &CHART, parser)) else {
-        return;
-    };
-    for value in ["x", "y"].into_iter().filter_map(|key| fields.get(key)) {
-        for item in one_or_more(value) {
-            if let Some(text) = parser.text(item) {
-                let parsed = Expression::parse(&text);
-                parser.ok_or_report(item, parsed);
-            }
-        }
-    }
-}
+/// What a chart is read for: the linkage of a family and its names.
+type ChartedFamily<'a> = (&'a Template, &'a FamilyNames);
 
-/// Reads the chart of a family.
+/// Reads the chart of a family; if that is not known, it is only checked as far as it can be.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    template: &Template,
-    names: &FamilyNames,
+    family: Option<ChartedFamily>,
     parser: &mut TomlParser<'t>,
 ) -> Option<Chart> {
     let fields = Fields::from_value(value, &CHART, parser)?;
     let x = fields.required("x", EXAMPLE, parser);
     let y = fields.required("y", EXAMPLE, parser);
-    let scope = chart::scope(&names.all, template.is_driven_by_length());
-    let x = x.and_then(|value| quantity(value, &scope, (names, template), parser));
-    let y = y.and_then(|value| quantities(value, &scope, (names, template), parser));
-    let by = match fields.get("by") {
-        None => None,
-        Some(value) => Some(series_slots(value, names, parser)?),
+    let [x, y] = [x.map_or(&[][..], std::slice::from_ref), y.map_or(&[][..], one_or_more)];
+    let items: Vec<&TomlValue<'t>> = x.iter().chain(y).collect();
+    let mut quantities = match family {
+        Some(family) => quantities((&items, x.len()), family, parser),
+        None => parser.with_unknown_names(|parser| {
+            items.iter().for_each(|item| drop(quantity(item, &chart::scope(&[], false), None, parser)));
+            vec![None; items.len()]
+        }),
     };
-    let (mut x, mut y) = (x?, y?);
-    let point_source = sample_or_curve_points(&x, &y, &fields, names, parser)?;
-    read_log(&fields, &mut x, &mut y, parser)?;
-    read_ranges(&fields, &mut x, &mut y, parser)?;
-    read_titles(&fields, &mut x, &mut y, parser)?;
+    if let Some(value) = fields.get("y").filter(|_| y.is_empty()) {
+        let problem = Problem::error(value.span(), "`y` is empty");
+        parser.report(problem.with_help("name a measure, as in y = \"straight_length\""));
+    }
+    let by = fields.get("by").map(|value| series_slots(value, family.map(|(_, names)| names), parser));
+    let mut axes = Axes {
+        texts: items.iter().zip(&quantities).map(|(item, quantity)| written_text(item, quantity.as_ref())).collect(),
+        are_known: !x.is_empty() && !y.is_empty(),
+        quantities: &mut quantities,
+    };
+    let before = parser.problem_count();
+    read_log(&fields, &mut axes, parser);
+    read_ranges(&fields, &mut axes, parser);
+    read_titles(&fields, &mut axes, parser);
+    let are_axes_read = parser.problem_count() == before;
+    let (_, names) = family?;
     if names.space.count() > MAX_CELLS {
         let problem = Problem::error(value.span(), format!("a chart can have at most {MAX_CELLS} cells"));
         parser.report(problem.with_help("use fewer values, or put the chart in a separate family"));
         return None;
     }
+    let mut read = quantities.into_iter();
+    let x = read.next().filter(|_| !x.is_empty())??;
+    let point_source = sample_or_curve_points(&x, read.as_slice(), y, names, parser);
+    let y = read.collect::<Option<Vec<Quantity>>>().filter(|_| are_axes_read)?;
+    let by = match by {
+        None => None,
+        Some(by) => Some(by?),
+    };
+    let point_source = point_source?;
     let is_name = |slot: &usize| *slot < names.all.len();
     let is_ordered_by_x = point_source == PointSource::Curves && x.expression.slots().iter().all(is_name);
     let by = by.unwrap_or_else(|| default_series_slots(&x.expression, point_source, names));
-    Some(Chart { point_source, x, y, group_by: by, is_ordered_by_x })
+    (!y.is_empty()).then_some(Chart { point_source, x, y, group_by: by, is_ordered_by_x })
 }
 
-/// Reads `y`: one or more different quantities.
+/// Reads the quantities of x, none if it is missing, and of y, of which each is given once.
 fn quantities<'t>(
-    value: &TomlValue<'t>,
-    scope: &Scope,
-    family: (&FamilyNames, &Template),
+    (items, x_count): (&[&TomlValue<'t>], usize),
+    (template, names): ChartedFamily,
     parser: &mut TomlParser<'t>,
-) -> Option<Vec<Quantity>> {
-    let items = one_or_more(value);
-    if items.is_empty() {
-        let problem = Problem::error(value.span(), "`y` is empty");
-        parser.report(problem.with_help("name a measure, as in y = \"straight_length\""));
-        return None;
-    }
-    let mut found: Vec<Quantity> = Vec::new();
+) -> Vec<Option<Quantity>> {
+    let scope = chart::scope(&names.all, template.is_driven_by_length());
     let mut texts = HashSet::new();
-    let mut all_read = true;
-    for item in items {
-        let Some(quantity) = quantity(item, scope, family, parser) else {
-            all_read = false;
-            continue;
-        };
-        if !texts.insert(quantity.text.clone()) {
-            let problem = Problem::error(item.span(), format!("`{}` is named twice", quantity.text.escape_debug()));
+    let mut found = Vec::new();
+    for (k, item) in items.iter().enumerate() {
+        let quantity = quantity(item, &scope, Some((template, names)), parser);
+        if let Some(Quantity { text, .. }) = quantity.as_ref().filter(|_| k >= x_count)
+            && !texts.insert(text.clone())
+        {
+            let problem = Problem::error(item.span(), format!("`{}` is named twice", text.escape_debug()));
             parser.report(problem.with_help("name it once"));
-            all_read = false;
         }
         found.push(quantity);
     }
-    all_read.then_some(found)
+    found
 }
 
-/// Reads an expression over names and measures.
+/// Reads an expression over names and measures; without a family it is only checked.
 fn quantity<'t>(
     value: &TomlValue<'t>,
     scope: &Scope,
-    (names, template): (&FamilyNames, &Template),
+    family: Option<ChartedFamily>,
     parser: &mut TomlParser<'t>,
 ) -> Option<Quantity> {
     let text = parser.text(value)?.trim().to_owned();
     let expression = parser.numeric_expression(value, scope)?;
+    let (template, names) = family?;
     let title = chart::title(&expression, &names.all, template);
     let unit = chart::unit(&expression, &names.all, template);
     Some(Quantity { text, title, unit, expression, is_log: false, range: None })
@@ -155,8 +156,8 @@ fn quantity<'t>(
 /// Whether the chart has a point for each sample or for each curve; reports a `y` that does not match `x`.
 fn sample_or_curve_points<'t>(
     x: &Quantity,
-    y: &[Quantity],
-    fields: &Fields<'_, 't>,
+    y: &[Option<Quantity>],
+    items: &[TomlValue<'t>],
     names: &FamilyNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<PointSource> {
@@ -165,8 +166,8 @@ fn sample_or_curve_points<'t>(
         return Some(PointSource::Samples);
     }
     let mut is_consistent = true;
-    for (quantity, item) in y.iter().zip(fields.get("y").map_or(&[][..], one_or_more)) {
-        if is_per_sample(quantity) {
+    for (quantity, item) in y.iter().zip(items) {
+        if let Some(quantity) = quantity.as_ref().filter(|quantity| is_per_sample(quantity)) {
             let (x, y) = (x.text.escape_debug(), quantity.text.escape_debug());
             let message = format!("`{y}` has a value for each sample, and `{x}` one for each curve");
             let help = "draw it over x = \"input_deg\" or x = \"arc\", or draw a measure of the curve";
@@ -178,14 +179,19 @@ fn sample_or_curve_points<'t>(
 }
 
 /// Reads `by`: the names whose values separate the lines.
-fn series_slots<'t>(value: &TomlValue<'t>, names: &FamilyNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
-    let scope = Scope::from_numbers(names.all.iter().map(String::as_str));
+fn series_slots<'t>(
+    value: &TomlValue<'t>,
+    names: Option<&FamilyNames>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<usize>> {
+    let scope = Scope::from_numbers(names.iter().flat_map(|names| &names.all).map(String::as_str));
     let mut found = Vec::new();
     let mut all_read = true;
     for item in one_or_more(value) {
         let slot = parser.text(item).map(|name| (scope.index_of(&name), name));
         match slot {
             Some((Some(slot), _)) => found.push(slot),
+            Some((None, _)) if names.is_none() => all_read = false,
             Some((None, name)) => {
                 let problem = Problem::error(item.span(), format!("there is no `{}`", name.escape_debug()));
                 parser.report(problem.with_help(suggestion_among(&name, scope.names(), scope.len())));
@@ -237,86 +243,73 @@ fn dependencies(value: &CompiledExpression, names: &FamilyNames) -> HashSet<usiz
     found
 }
 
-/// The quantity of a chart with this text; reports a text that no quantity has.
-fn find_quantity<'q, 't>(
-    text: &str,
-    place: std::ops::Range<usize>,
-    (x, y): (&'q mut Quantity, &'q mut [Quantity]),
-    parser: &mut TomlParser<'t>,
-) -> Option<&'q mut Quantity> {
-    let texts = || std::iter::once(&*x).chain(&*y).map(|quantity| quantity.text.as_str());
-    let found = texts().position(|known| known == text.trim());
-    if found.is_none() {
-        let problem = Problem::error(place, format!("the chart has no quantity `{}`", text.escape_debug()));
-        parser.report(problem.with_help(suggestion_among(text, texts(), 1 + y.len())));
-    }
-    match found?.checked_sub(1) {
-        None => Some(x),
-        Some(k) => y.get_mut(k),
+/// The text of a quantity, also of one that cannot be read.
+fn written_text(item: &TomlValue, quantity: Option<&Quantity>) -> Option<String> {
+    quantity.map(|quantity| quantity.text.clone()).or_else(|| Some(item.get_ref().as_str()?.trim().to_owned()))
+}
+
+/// The quantities of the axes of a chart, x before those of y, as far as they can be read, and their texts.
+struct Axes<'q> {
+    texts: Vec<Option<String>>,
+    /// Whether both axes have quantities.
+    are_known: bool,
+    quantities: &'q mut [Option<Quantity>],
+}
+
+impl Axes<'_> {
+    /// The quantity with this text, if it could be read; reports a text that no quantity has.
+    fn find(&mut self, text: &str, place: Span, parser: &mut TomlParser) -> Option<&mut Quantity> {
+        let found = self.texts.iter().position(|known| known.as_deref() == Some(text.trim()));
+        if found.is_none() && self.are_known && self.texts.iter().all(Option::is_some) {
+            let problem = Problem::error(place, format!("the chart has no quantity `{}`", text.escape_debug()));
+            let texts = self.texts.iter().flatten().map(String::as_str);
+            parser.report(problem.with_help(suggestion_among(text, texts, self.texts.len())));
+        }
+        self.quantities.get_mut(found?)?.as_mut()
     }
 }
 
 /// Reads `log`: which quantities have logarithmic axes.
-fn read_log<'t>(
-    fields: &Fields<'_, 't>,
-    x: &mut Quantity,
-    y: &mut [Quantity],
-    parser: &mut TomlParser<'t>,
-) -> Option<()> {
-    let before = parser.problem_count();
+fn read_log<'t>(fields: &Fields<'_, 't>, axes: &mut Axes, parser: &mut TomlParser<'t>) {
     for item in fields.get("log").map_or(&[][..], one_or_more) {
         let Some(text) = parser.text(item) else { continue };
-        if let Some(quantity) = find_quantity(&text, item.span(), (x, y), parser) {
+        if let Some(quantity) = axes.find(&text, item.span(), parser) {
             quantity.is_log = true;
         }
     }
-    (parser.problem_count() == before).then_some(())
 }
 
 /// Reads `range`: the ends of the axes.
-fn read_ranges<'t>(
-    fields: &Fields<'_, 't>,
-    x: &mut Quantity,
-    y: &mut [Quantity],
-    parser: &mut TomlParser<'t>,
-) -> Option<()> {
-    let Some(value) = fields.get("range") else { return Some(()) };
-    let before = parser.problem_count();
-    for (text, span, value) in Fields::with_any_keys(value, "`range`", parser)?.entries() {
+fn read_ranges<'t>(fields: &Fields<'_, 't>, axes: &mut Axes, parser: &mut TomlParser<'t>) {
+    let table = fields.get("range").and_then(|value| Fields::with_any_keys(value, "`range`", parser));
+    for (text, span, value) in table.iter().flat_map(Fields::entries) {
         let range = parser.pair(value, "[1, 2]").map(|pair| pair.map(|end| parser.constant(end)));
-        let (Some(quantity), Some([Some(low), Some(high)])) = (find_quantity(text, span, (x, y), parser), range) else {
-            continue;
-        };
+        let quantity = axes.find(text, span, parser);
+        let Some([Some(low), Some(high)]) = range else { continue };
         let error = if !(low < high && high - low < f64::INFINITY) {
             Some((format!("[{low}, {high}] is not a range"), "give the lower end first, as in [0, 3]"))
-        } else if quantity.is_log && low <= 0.0 {
+        } else if quantity.as_ref().is_some_and(|quantity| quantity.is_log) && low <= 0.0 {
             Some((format!("a logarithmic axis cannot begin at {low}"), "begin it above 0"))
         } else {
             None
         };
-        match error {
-            Some((message, help)) => parser.report(Problem::error(value.span(), message).with_help(help)),
-            None => quantity.range = Some([low, high]),
+        match (error, quantity) {
+            (Some((message, help)), _) => parser.report(Problem::error(value.span(), message).with_help(help)),
+            (None, Some(quantity)) => quantity.range = Some([low, high]),
+            (None, None) => {}
         }
     }
-    (parser.problem_count() == before).then_some(())
 }
 
 /// Reads `title`: the words for quantities, after which the unit is printed if there is one.
-fn read_titles<'t>(
-    fields: &Fields<'_, 't>,
-    x: &mut Quantity,
-    y: &mut [Quantity],
-    parser: &mut TomlParser<'t>,
-) -> Option<()> {
-    let Some(value) = fields.get("title") else { return Some(()) };
-    let before = parser.problem_count();
-    for (text, span, value) in Fields::with_any_keys(value, "`title`", parser)?.entries() {
-        if let (Some(quantity), Some(title)) = (find_quantity(text, span, (x, y), parser), parser.text(value)) {
+fn read_titles<'t>(fields: &Fields<'_, 't>, axes: &mut Axes, parser: &mut TomlParser<'t>) {
+    let table = fields.get("title").and_then(|value| Fields::with_any_keys(value, "`title`", parser));
+    for (text, span, value) in table.iter().flat_map(Fields::entries) {
+        let title = parser.text(value);
+        if let (Some(quantity), Some(title)) = (axes.find(text, span, parser), title) {
             quantity.title = title;
         }
     }
-    (parser.problem_count() == before).then_some(())
 }
 
 /// Checks that a family has a `chart` if and only if its layout is `chart`.
@@ -337,7 +330,7 @@ pub(crate) fn check_layout<'t>(fields: &Fields<'_, 't>, is_chart: bool, parser: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use coupler_curves::expression::Kind;
+    use coupler_curves::expression::{Expression, Kind};
 
     #[test]
     fn measures_of_samples_and_of_curves_are_distinguished() {

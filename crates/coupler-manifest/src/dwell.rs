@@ -34,21 +34,27 @@ pub(crate) fn default_text() -> String {
     format!("{{ \"{key}\": {value} }}")
 }
 
-/// Reads the band of the output of a linkage.
-pub(crate) fn read<'t>(value: &TomlValue<'t>, template: &Template, parser: &mut TomlParser<'t>) -> Option<DwellBand> {
+/// Reads the band of the output of a linkage, if it is known.
+pub(crate) fn read<'t>(
+    value: &TomlValue<'t>,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<DwellBand> {
     let fields = Fields::from_value(value, &DWELL, parser)?;
     let given: Vec<&str> = DWELL.key_names().into_iter().filter(|key| fields.get(key).is_some()).collect();
     // What is wrong with the joints is reported with the linkage.
-    let output = template.structure().ok()?.output();
-    let forms = match output.map(|output| output.is_slider()) {
-        None => {
+    let structure = template.and_then(|template| Some((template, template.structure().ok()?)));
+    let is_slider = structure.map(|(template, linkage)| (template, linkage.output().map(|output| output.is_slider())));
+    let forms: &[&str] = match is_slider {
+        None => &["{ share = 0.01 }", "{ angle = \"0.5 deg\" }", "{ length = 0.2 }"],
+        Some((template, None)) => {
             let problem =
                 Problem::error(value.span(), format!("`{}` has no output link that could dwell", template.id));
             parser.report(problem.with_help("state it with `output_link` in [[linkage]], or leave `dwell` out"));
             return None;
         }
-        Some(true) => ["{ share = 0.01 }", "{ length = 0.2 }"],
-        Some(false) => ["{ share = 0.01 }", "{ angle = \"0.5 deg\" }"],
+        Some((_, Some(true))) => &["{ share = 0.01 }", "{ length = 0.2 }"],
+        Some((_, Some(false))) => &["{ share = 0.01 }", "{ angle = \"0.5 deg\" }"],
     };
     let help = format!("write {}", forms.join(" or "));
     let [key] = given[..] else {
@@ -57,7 +63,8 @@ pub(crate) fn read<'t>(value: &TomlValue<'t>, template: &Template, parser: &mut 
         return None;
     };
     let value = fields.get(key)?;
-    if !forms.iter().any(|form| form.starts_with(&format!("{{ {key} "))) {
+    let has_form = forms.iter().any(|form| form.starts_with(&format!("{{ {key} ")));
+    if let (Some((template, _)), false) = (is_slider, has_form) {
         let kind = if key == "angle" { "a slider, and has no angle" } else { "a link that turns, and has no length" };
         let problem = Problem::error(value.span(), format!("the output of `{}` is {kind}", template.id));
         parser.report(problem.with_help(help));

@@ -6,8 +6,7 @@ use crate::cells::{self, AtlasTotals, Purpose};
 use crate::files::FileReader;
 use crate::inputs::ManifestInputs;
 use crate::name_list::name_indices;
-use crate::names::{check_expression_syntax, read_names};
-use crate::parameter_sets::read_space;
+use crate::names::read_names;
 use crate::plan::{CaseFile, PlannedFamily};
 use crate::schema::{
     DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing, default_sampling,
@@ -56,7 +55,7 @@ pub(crate) fn read<'t>(
         fields.required("id", "id = \"evans\"", parser).and_then(|value| linkage_format::parse_slug(value, parser));
     let template =
         fields.required("linkage", "linkage = \"evans\"", parser).and_then(|value| templates.find(value, parser));
-    let template = template.map(|template| apply_overrides(template, &fields, parser));
+    let template = apply_overrides(template, &fields, parser);
     let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
     let (title, source) = (text("title", parser), text("source", parser));
     let formats = match fields.get("formats") {
@@ -85,41 +84,35 @@ pub(crate) fn read<'t>(
     if !totals.add_names(parameters, &fields, parser) {
         return None;
     }
-    let names = match &template {
-        Some(template) => read_names(template, &fields, files, parser),
-        None => {
-            read_space(&fields, None, files, parser);
-            check_expression_syntax(&fields, parser);
-            None
-        }
-    };
-    let chart = match (fields.get("chart"), &template, &names) {
-        (None, ..) => Some(None),
-        (Some(value), Some(template), Some(names)) => chart::read(value, template, names, parser).map(Some),
-        (Some(_), ..) => {
-            chart::check_expression_syntax(&fields, parser);
-            None
-        }
+    let names = read_names(template.as_deref(), &fields, files, parser);
+    let chart = match fields.get("chart") {
+        None => Some(None),
+        Some(value) => chart::read(value, template.as_deref().zip(names.as_ref()), parser).map(Some),
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let layout = layout::read(&fields, page, charts, parser);
     let unit = fields.get("unit").map_or(Some(unit), |value| parser.word(value, &LengthUnit::ALL).map(Some));
-    let scale = unit.and_then(|unit| layout::panel_scale(&fields, layout, unit, parser));
+    let scale = layout::panel_scale(&fields, layout, unit, parser);
     let ghosts = layout::ghosts(&fields, layout, parser);
     let poses = layout::poses(&fields, layout, parser);
-    let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
+    // The cells are checked also if other keys cannot be read.
+    let (template, names) = (template?, names?);
+    let are_settings_read = straight.is_some() && unit.is_some() && measures.is_some();
+    let is_sampling_read = sampling.is_some() && columns.is_some();
+    let default_sampling = default_sampling(template.is_driven_by_length());
+    let id_or_empty = id.clone().unwrap_or_default();
     let mut family = Family {
-        title: title.unwrap_or_else(|| default_title.unwrap_or(&id).to_owned()),
-        id,
+        title: title.unwrap_or_else(|| default_title.unwrap_or(&id_or_empty).to_owned()),
+        id: id_or_empty,
         template,
-        unit: unit?,
+        unit: unit.unwrap_or_default(),
         names: names.all,
         space: names.space,
         derived: names.derived,
-        sampling,
-        columns,
-        straight,
-        measures: measures?,
+        sampling: sampling.unwrap_or(default_sampling),
+        columns: columns.unwrap_or_default(),
+        straight: straight.unwrap_or_default(),
+        measures: measures.unwrap_or(MeasureSet::ALL),
         filter: names.filter,
         sort: names.sort,
         captions: names.captions,
@@ -145,7 +138,7 @@ pub(crate) fn read<'t>(
         };
         cells::check(&family, checked, &fields, given, parser.problem_count() > before, parser);
     }
-    names.is_complete.then_some(())?;
+    (names.is_complete && id.is_some() && are_settings_read && is_sampling_read).then_some(())?;
     let source = source.unwrap_or_else(|| family.template.source_line());
     let [filter_span, scale_span] = ["where", "scale"].map(|key| fields.get(key).map(TomlValue::span));
     let sort = fields.get("sort").and_then(|value| value.get_ref().as_str()).map(str::to_owned);
@@ -180,19 +173,27 @@ pub(crate) fn read<'t>(
     Some(planned)
 }
 
-/// The template with the family's settings in place of its own.
-fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Arc<Template> {
+/// The template, if it is known, with the family's settings in place of its own.
+fn apply_overrides<'t>(
+    template: Option<Arc<Template>>,
+    fields: &Fields<'_, 't>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Arc<Template>> {
+    let known = template.as_deref();
     let circuits = fields.get("circuits").and_then(|value| parser.word(value, &linkage_format::CIRCUIT_SELECTIONS));
     let continuation = fields.get("continuation").and_then(|value| parser.word(value, &linkage_format::CONTINUATIONS));
     let coincident = fields.get("coincident").and_then(|value| parser.word(value, &linkage_format::COINCIDENT_DYADS));
     let placement = fields.get("place").and_then(|value| placement(value, parser));
-    let load = fields.get("load").and_then(|value| linkage_format::parse_load(value, &template.joints, parser));
-    let tolerance = fields.get("tolerance").and_then(|value| linkage_format::parse_tolerance(value, &template, parser));
-    let dwell = fields.get("dwell").and_then(|value| dwell::read(value, &template, parser));
-    let traced = fields.get("trace").and_then(|value| traced_joints(value, &template, parser));
+    let load = fields
+        .get("load")
+        .and_then(|value| linkage_format::parse_load(value, known.map(|known| &known.joints[..]), parser));
+    let tolerance = fields.get("tolerance").and_then(|value| linkage_format::parse_tolerance(value, known, parser));
+    let dwell = fields.get("dwell").and_then(|value| dwell::read(value, known, parser));
+    let traced = fields.get("trace").and_then(|value| traced_joints(value, known, parser));
+    let template = template?;
     let has_settings = traced.is_some() || circuits.is_some() || continuation.is_some() || coincident.is_some();
     if !has_settings && placement.is_none() && load.is_none() && tolerance.is_none() && dwell.is_none() {
-        return template;
+        return Some(template);
     }
     let mut changed = Template::clone(&template);
     changed.circuits = circuits.unwrap_or(changed.circuits);
@@ -203,13 +204,17 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     changed.load = load.or(changed.load);
     changed.tolerance = tolerance.or(changed.tolerance);
     changed.dwell = dwell.unwrap_or(changed.dwell);
-    Arc::new(changed)
+    Some(Arc::new(changed))
 }
 
-/// Reads the joints whose curves are traced, as their indices among those of the linkage.
-fn traced_joints<'t>(value: &TomlValue<'t>, template: &Template, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
-    let known: Vec<&str> = template.joints.iter().map(|joint| joint.name.as_str()).collect();
-    let traced = name_indices(value, "joint", &known, parser)?;
+/// Reads the joints whose curves are traced, as their indices among those of the linkage, if it is known.
+fn traced_joints<'t>(
+    value: &TomlValue<'t>,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<usize>> {
+    let known = template.map(|template| template.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>());
+    let traced = name_indices(value, "joint", known.as_deref(), parser)?;
     if traced.is_empty() {
         let problem = Problem::error(value.span(), "no joint is traced");
         parser.report(problem.with_help("name at least one, as in [\"M\"], or leave `trace` out"));
@@ -230,10 +235,7 @@ fn placement<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<O
 /// Reads how circuits are sampled.
 fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut TomlParser<'t>) -> Option<Sampling> {
     let fields = Fields::from_value(value, &SAMPLING, parser)?;
-    let spacing = match fields.get("spacing") {
-        None => Spacing::default(),
-        Some(value) => parser.word(value, &SPACINGS)?,
-    };
+    let spacing = fields.get("spacing").map_or(Some(Spacing::default()), |value| parser.word(value, &SPACINGS));
     if let (Some(_), Some(value)) = (fields.get("step"), fields.get("spacing")) {
         let problem = Problem::error(value.span(), "`spacing` cannot be combined with `step`");
         parser.report(problem.with_help("write { samples = 180, spacing = \"smooth\" }"));
@@ -269,7 +271,7 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut
             parser.report(problem.with_help(format!("give {least} to 360 deg, as in step = \"2 deg\"")));
             None
         }
-        (None, Some(value)) => parser.integer(value, 2, MAX_SAMPLES).map(|n| match spacing {
+        (None, Some(value)) => parser.integer(value, 2, MAX_SAMPLES).zip(spacing).map(|(n, spacing)| match spacing {
             Spacing::Even => Sampling::Samples(n),
             Spacing::Smooth => Sampling::DenseAtLimits(n),
             Spacing::Arc => Sampling::ArcLength(n),
@@ -337,7 +339,7 @@ fn straight<'t>(
 
 /// Reads the additional columns of `points.csv`.
 fn columns<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<Column>> {
-    let places = name_indices(value, "column", &COLUMNS.map(|column| column.name), parser)?;
+    let places = name_indices(value, "column", Some(&COLUMNS.map(|column| column.name)), parser)?;
     Some(places.into_iter().map(|place| COLUMNS[place]).collect())
 }
 
@@ -354,6 +356,6 @@ fn measures<'t>(
         known.extend(names(true));
     }
     // Names beyond those of an angle are the same measures again.
-    let places = name_indices(value, "measure", &known, parser)?;
+    let places = name_indices(value, "measure", Some(&known), parser)?;
     Some(places.into_iter().filter(|place| *place < MEASURES.len()).collect())
 }

@@ -46,10 +46,10 @@ struct Decimal {
     exponent: i32,
 }
 
-/// Reads the values that a grid gives for a name of a kind.
+/// Reads the values that a grid gives for a name of a kind, if that is known.
 pub(crate) fn read_values<'t>(
     name: &str,
-    kind: ParameterKind,
+    kind: Option<ParameterKind>,
     value: &TomlValue<'t>,
     parser: &mut TomlParser<'t>,
 ) -> Option<GridValues> {
@@ -71,7 +71,7 @@ pub(crate) fn read_values<'t>(
 /// Reads a range by step or by count.
 fn read_range<'t>(
     name: &str,
-    kind: ParameterKind,
+    kind: Option<ParameterKind>,
     value: &TomlValue<'t>,
     parser: &mut TomlParser<'t>,
 ) -> Option<GridValues> {
@@ -203,7 +203,7 @@ mod tests {
         let mut parser = TomlParser::new(&text);
         let document = parser.parse_document();
         let root = Fields::with_any_keys(&document, "the file", &mut parser).unwrap();
-        match root.get("p").and_then(|value| read_values("p", ParameterKind::Length, value, &mut parser)) {
+        match root.get("p").and_then(|value| read_values("p", Some(ParameterKind::Length), value, &mut parser)) {
             Some(read) => Ok(read.values.iter().collect()),
             None => Err(parser.into_problems().remove(0).message),
         }

@@ -87,11 +87,11 @@ fn pose<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<[f64; 
     None
 }
 
-/// Reads the scale of the linkages on pages of panels and of coupler grids.
+/// Reads the scale of the linkages on pages of panels and of coupler grids; `unit` is that of the lengths, if it could be read.
 pub(crate) fn panel_scale<'t>(
     fields: &Fields<'_, 't>,
     layout: Option<Layout>,
-    unit: Option<LengthUnit>,
+    unit: Option<Option<LengthUnit>>,
     parser: &mut TomlParser<'t>,
 ) -> Option<PanelScale> {
     /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
@@ -125,17 +125,18 @@ fn fraction(text: &str) -> Option<[&str; 2]> {
     parts.iter().all(|part| part.parse::<f64>().is_ok()).then_some(parts)
 }
 
-/// Reads a scale like 1:2, a length on paper to one of the linkage, as millimetres to a unit.
+/// Reads a scale like 1:2, a length on paper to one of the linkage, as millimetres to a unit, if this could be read.
 fn ratio<'t>(
     value: &TomlValue<'t>,
     parts: [&str; 2],
-    unit: Option<LengthUnit>,
+    unit: Option<Option<LengthUnit>>,
     parser: &mut TomlParser<'t>,
 ) -> Option<f64> {
     let [paper, plane] = parts.map(|part| part.trim().parse().ok().filter(|number: &f64| *number > 0.0));
     let problem = match (paper, plane, unit) {
-        (Some(paper), Some(plane), Some(unit)) => return Some(unit.millimetres() * paper / plane),
-        (Some(_), Some(_), None) => Problem::error(value.span(), "this scale needs the unit of the lengths").with_help(
+        (Some(paper), Some(plane), Some(Some(unit))) => return Some(unit.millimetres() * paper / plane),
+        (Some(_), Some(_), None) => return None,
+        (Some(_), Some(_), Some(None)) => Problem::error(value.span(), "this scale needs the unit of the lengths").with_help(
             "write unit = \"mm\" in [atlas] or here; or give the length of a unit on paper, as in scale = \"20 mm\"",
         ),
         _ => Problem::error(value.span(), "a scale has a number before the colon, and one after it")

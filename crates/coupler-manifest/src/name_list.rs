@@ -3,16 +3,20 @@
 use coupler_curves::linkage_format::{TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, suggestion};
 
-/// Reads a list of names, each given once, as their indices in `known`; `what` is what messages call them.
+/// Reads a list of names, each given once, as their indices in `known`, or in the list itself if it is not known which there are; `what`
+/// is what messages call them.
 pub(crate) fn name_indices<'t>(
     value: &TomlValue<'t>,
     what: &str,
-    known: &[&str],
+    known: Option<&[&str]>,
     parser: &mut TomlParser<'t>,
 ) -> Option<Vec<usize>> {
     let mut indices: Vec<usize> = Vec::new();
     let mut all_read = true;
-    for item in parser.list(value)? {
+    let list = parser.list(value)?;
+    let given: Vec<&str> = list.iter().map(|item| item.get_ref().as_str().unwrap_or_default()).collect();
+    let known = known.unwrap_or(&given);
+    for item in list {
         let Some(name) = parser.text(item) else {
             all_read = false;
             continue;

@@ -33,27 +33,30 @@ pub(crate) struct FamilyNames {
     pub is_complete: bool,
 }
 
+/// The entries of `let`: names, their places and their values.
+type Lets<'v, 't> = Vec<(&'v str, Span, &'v TomlValue<'t>)>;
+
 /// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`. `None` if it is not known
-/// which names there are.
+/// which names there are, as without the linkage; the expressions are checked as far as they can be.
 pub(crate) fn read_names<'t>(
-    template: &Template,
+    template: Option<&Template>,
     fields: &Fields<'_, 't>,
     files: FileReader,
     parser: &mut TomlParser<'t>,
 ) -> Option<FamilyNames> {
-    let lets = match fields.get("let") {
-        None => Vec::new(),
-        Some(value) => Fields::with_any_keys(value, "`let`", parser)?.entries().collect(),
+    let lets: Option<Lets> = match fields.get("let") {
+        None => Some(Vec::new()).filter(|_| !fields.may_be_misspelt("let")),
+        Some(value) => Fields::with_any_keys(value, "`let`", parser).map(|table| table.entries().collect()),
     };
-    let named_space = read_space(fields, Some(template), files, parser);
+    let named_space = read_space(fields, template, files, parser);
+    let (Some(template), Some(lets), Some(named_space)) = (template, &lets, named_space) else {
+        parser.with_unknown_names(|parser| check_expressions(template, lets.unwrap_or_default(), fields, parser));
+        return None;
+    };
     let mut collected = NameTable::default();
     for parameter in &template.parameters {
         collected.add(&parameter.name, None);
     }
-    let Some(named_space) = named_space else {
-        check_expression_syntax(fields, parser);
-        return None;
-    };
     let mut unread = named_space.unread();
     let (space, table) = named_space.into_space(&mut |name, span| collected.add(name, Some(span)));
     let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| collected.add(name, Some(span))).collect();
@@ -103,16 +106,10 @@ pub(crate) fn read_names<'t>(
         }
     }
     let curve_scope = Family::scope(&all, template.is_driven_by_length());
-    let filter = fields.get("where").and_then(|value| read_filter(value, &curve_scope, parser));
-    read_all &= filter.is_some() == fields.get("where").is_some();
-    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser));
-    let sort = sort.and_then(|value| parser.numeric_expression(value, &curve_scope));
-    read_all &= sort.is_some() == fields.get("sort").is_some();
-    let caption = |key: &str, default: &Option<Caption>, parser: &mut TomlParser<'t>| match fields.get(key) {
-        None => default.clone(),
-        Some(value) => parser.caption(value, &curve_scope, &Family::word_measure_names().collect::<Vec<_>>()),
-    };
-    let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
+    let curve_expressions = read_curve_expressions(fields, &curve_scope, parser);
+    read_all &= curve_expressions.are_complete;
+    let CurveExpressions { filter, sort, captions: [caption, note], .. } = curve_expressions;
+    let captions = [caption.or_else(|| template.caption.clone()), note.or_else(|| template.note.clone())];
     let mut misspelt = Vec::new();
     if !parser.has_syntax_error() {
         // If all expressions could be compiled no word is misspelt.
@@ -150,17 +147,45 @@ impl NameTable {
     }
 }
 
-/// Checks the syntax of `let`, `where` and `sort`, when the names they may use are not known.
-pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) {
-    if let Some(lets) = fields.get("let").and_then(|value| Fields::with_any_keys(value, "`let`", parser)) {
-        for (name, span, value) in lets.entries() {
-            linkage_format::check_identifier(name, span, parser);
-            parser.expression(value);
+/// Checks the expressions of a family when the names they may use are not known.
+fn check_expressions<'t>(
+    template: Option<&Template>,
+    lets: Lets<'_, 't>,
+    fields: &Fields<'_, 't>,
+    parser: &mut TomlParser<'t>,
+) {
+    for (name, span, value) in lets {
+        linkage_format::check_identifier(name, span, parser);
+        if let Some(expression) = parser.parameter_expression(value, name, kind_of(template, name)) {
+            let compiled = expression.compile(&Scope::default(), Kind::Number);
+            parser.ok_or_report(value, compiled);
         }
     }
-    for value in ["where", "sort"].into_iter().filter_map(|key| fields.get(key)) {
-        parser.expression(value);
-    }
+    read_curve_expressions(fields, &Family::scope(&[], false), parser);
+}
+
+/// The expressions of a family about its curves.
+struct CurveExpressions {
+    filter: Option<CompiledExpression>,
+    sort: Option<CompiledExpression>,
+    /// The caption and the note.
+    captions: [Option<Caption>; 2],
+    /// Whether all that are given could be read.
+    are_complete: bool,
+}
+
+/// Reads `where`, `sort`, `caption` and `note`.
+fn read_curve_expressions<'t>(fields: &Fields<'_, 't>, scope: &Scope, parser: &mut TomlParser<'t>) -> CurveExpressions {
+    let filter = fields.get("where").and_then(|value| read_filter(value, scope, parser));
+    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser));
+    let sort = sort.and_then(|value| parser.numeric_expression(value, scope));
+    let words: Vec<&str> = Family::word_measure_names().collect();
+    let captions =
+        ["caption", "note"].map(|key| fields.get(key).and_then(|value| parser.caption(value, scope, &words)));
+    let is_read = [filter.is_some(), sort.is_some(), captions[0].is_some(), captions[1].is_some()];
+    let keys = ["where", "sort", "caption", "note"];
+    let are_complete = keys.into_iter().zip(is_read).all(|(key, is_read)| is_read == fields.get(key).is_some());
+    CurveExpressions { filter, sort, captions, are_complete }
 }
 
 /// Whether a condition or a sort key uses a measure whose value is a word; reports it.

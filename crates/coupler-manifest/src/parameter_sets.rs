@@ -13,15 +13,12 @@ use coupler_curves::template::{ParameterKind, Template};
 /// The most cells that `limit` may allow; their numbers have 32 bits.
 pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
 
-/// In place of a value that could not be read, which is a problem already, so that what else is wrong is found in the same run: no value
-/// that can be read is NaN.
-const UNREAD: f64 = f64::NAN;
-
-/// The values of `grid`, `cases` or `design`, by name.
+/// The values of `grid`, `cases` or `design`, by name; `None` for those that could not be read, which is a problem already, so that what else is
+/// wrong is found in the same run.
 pub(crate) enum NamedSpace {
-    Grid(Vec<(String, Span, AxisValues)>),
-    Cases(Vec<Vec<(String, Span, f64)>>),
-    /// Those of a file or of a search, with the place of its name.
+    Grid(Vec<(String, Span, Option<AxisValues>)>),
+    Cases(Vec<Vec<(String, Span, Option<f64>)>>),
+    /// Those of a file or of a search, with the place of its name; NaN for those that could not be read.
     Table(TableColumns, Vec<f64>, Span),
 }
 
@@ -30,12 +27,10 @@ impl NamedSpace {
     pub fn unread(&self) -> Vec<String> {
         let names: Vec<&String> = match self {
             NamedSpace::Grid(axes) => {
-                let is_unread =
-                    |values: &AxisValues| matches!(values, AxisValues::List(list) if list.iter().any(|v| v.is_nan()));
-                axes.iter().filter(|(.., values)| is_unread(values)).map(|(name, ..)| name).collect()
+                axes.iter().filter(|(.., values)| values.is_none()).map(|(name, ..)| name).collect()
             }
             NamedSpace::Cases(cases) => {
-                cases.iter().flatten().filter(|(.., value)| value.is_nan()).map(|(name, ..)| name).collect()
+                cases.iter().flatten().filter(|(.., value)| value.is_none()).map(|(name, ..)| name).collect()
             }
             NamedSpace::Table(columns, ..) if columns.is_complete => Vec::new(),
             NamedSpace::Table(columns, values, _) => {
@@ -47,16 +42,22 @@ impl NamedSpace {
         names.into_iter().cloned().collect()
     }
 
-    /// The parameter sets, with the indices of their names, and the table that they are from.
+    /// The parameter sets, with the indices of their names, and the table that they are from. What could not be read is not a number there.
     pub fn into_space(self, slot_of: &mut impl FnMut(&str, &Span) -> usize) -> (ParameterSpace, Option<TableColumns>) {
         let space = match self {
             NamedSpace::Grid(axes) => {
-                let axis = |(name, span, values): (String, Span, _)| Axis { slot: slot_of(&name, &span), values };
+                let axis = |(name, span, values): (String, Span, Option<AxisValues>)| Axis {
+                    slot: slot_of(&name, &span),
+                    values: values.unwrap_or_else(|| vec![f64::NAN].into()),
+                };
                 ParameterSpace::Grid(axes.into_iter().map(axis).collect())
             }
             NamedSpace::Cases(cases) => {
-                let mut case = |case: Vec<(String, Span, f64)>| -> Case {
-                    case.into_iter().map(|(name, span, value)| (slot_of(&name, &span), value)).collect()
+                let mut case = |case: Vec<(String, Span, Option<f64>)>| -> Case {
+                    let value = |(name, span, value): (String, Span, Option<f64>)| {
+                        (slot_of(&name, &span), value.unwrap_or(f64::NAN))
+                    };
+                    case.into_iter().map(value).collect()
                 };
                 ParameterSpace::Cases(cases.into_iter().map(&mut case).collect())
             }
@@ -69,10 +70,10 @@ impl NamedSpace {
     }
 }
 
-/// What a name is a number of: a parameter of the linkage, or another name.
-pub(crate) fn kind_of(template: Option<&Template>, name: &str) -> ParameterKind {
-    let parameter = template.and_then(|template| template.parameters.iter().find(|parameter| parameter.name == name));
-    parameter.map(|parameter| parameter.kind).unwrap_or_default()
+/// What a name is a number of: a parameter of the linkage, or another name; `None` if the linkage is not known.
+pub(crate) fn kind_of(template: Option<&Template>, name: &str) -> Option<ParameterKind> {
+    let parameter = template?.parameters.iter().find(|parameter| parameter.name == name);
+    Some(parameter.map(|parameter| parameter.kind).unwrap_or_default())
 }
 
 /// Reads `grid`, `cases` or `design` of a family of a linkage; `None` if it is not known which.
@@ -84,7 +85,8 @@ pub(crate) fn read_space<'t>(
 ) -> Option<NamedSpace> {
     let limit = match fields.get("limit") {
         None => MAX_CELLS,
-        Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
+        // With a limit that cannot be read there may be as many as with any.
+        Some(value) => parser.integer(value, 1, MAX_LIMIT).unwrap_or(MAX_LIMIT),
     };
     match (fields.get("grid"), fields.get("cases"), fields.get("design")) {
         (Some(value), None, None) => read_grid(value, limit, template, parser),
@@ -98,6 +100,7 @@ pub(crate) fn read_space<'t>(
         }
         // One may be in an entry that could not be read.
         (None, None, None) if parser.has_syntax_error() => None,
+        (None, None, None) if ["grid", "cases", "design"].iter().any(|key| fields.may_be_misspelt(key)) => None,
         (grid, cases, design) => {
             let message = match (grid, cases, design) {
                 (None, None, None) => "a [[family]] has no `grid`, no `cases` and no `design`",
@@ -141,16 +144,21 @@ fn read_grid<'t>(
     for (name, span, value) in table.entries() {
         linkage_format::check_identifier(name, span.clone(), parser);
         let values = grid::read_values(name, kind_of(template, name), value, parser);
-        axes.push((name.to_owned(), span, values.unwrap_or_else(|| vec![UNREAD].into())));
+        axes.push((name.to_owned(), span, values));
     }
-    let cells: f64 = axes.iter().map(|(.., read): &(_, _, GridValues)| read.count).product();
+    let count = |(.., read): &(_, _, Option<GridValues>)| read.as_ref().map_or(1.0, |read| read.count);
+    let cells: f64 = axes.iter().map(count).product();
     if cells > limit as f64 {
+        const MAX_WRITTEN: f64 = 1e18;
+        let count = if cells <= MAX_WRITTEN { format!("{cells:.0}") } else { "more than 10^18".to_owned() };
         let problem =
-            Problem::error(value.span(), format!("the grid has {cells:.0} cells, more than the limit of {limit}"));
+            Problem::error(value.span(), format!("the grid has {count} cells, more than the limit of {limit}"));
         parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
         return None;
     }
-    Some(NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
+    Some(NamedSpace::Grid(
+        axes.into_iter().map(|(name, span, read)| (name, span, read.map(|read| read.values))).collect(),
+    ))
 }
 
 /// Reads `cases`, at most `limit` of them.
@@ -187,7 +195,7 @@ fn read_cases<'t>(
         for (name, span, value) in table.entries() {
             linkage_format::check_identifier(name, span.clone(), parser);
             let value = parser.parameter_value(value, name, kind_of(template, name));
-            case.push((name.to_owned(), span, value.unwrap_or(UNREAD)));
+            case.push((name.to_owned(), span, value));
         }
         cases.push(case);
     }
@@ -254,9 +262,9 @@ fn read_table<'t>(
     let table = table?;
     let shown = path.escape_debug();
     for (k, name) in table.names.iter().enumerate() {
-        if let Some(message) = linkage_format::identifier_error(name) {
+        if let Some([message, help]) = linkage_format::identifier_error(name) {
             let problem = Problem::error(value.span(), format!("in `{shown}`, column {}: {message}", k + 1));
-            parser.report(problem.with_help(linkage_format::IDENTIFIER_HELP));
+            parser.report(problem.with_help(help));
         } else if table.names[..k].contains(name) {
             let problem = Problem::error(value.span(), format!("in `{shown}`, there are two columns `{name}`"));
             parser.report(problem.with_help("remove one of them, or name it otherwise"));

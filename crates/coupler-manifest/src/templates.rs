@@ -20,7 +20,8 @@ pub(crate) struct Templates {
     pub manifest_templates: Vec<Arc<Template>>,
     /// The ids of the manifest's linkages in order, including those that could not be parsed.
     ids: Vec<String>,
-    /// The linkages of the manifest by their ids; `None` for those that could not be parsed.
+    /// The linkages of the manifest by their ids, also those with problems with which families can be checked; `None` for others that could
+    /// not be parsed.
     by_id: HashMap<String, Option<Arc<Template>>>,
 }
 
@@ -29,7 +30,9 @@ impl Templates {
     pub fn read<'t>(root: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Templates {
         let mut templates = Templates { manifest_templates: Vec::new(), ids: Vec::new(), by_id: HashMap::new() };
         for value in root.tables("linkage", parser) {
+            let before = parser.problem_count();
             let read = linkage_format::parse_template(value, parser).map(Arc::new);
+            let has_problems = parser.problem_count() > before;
             if let Some((id, span)) = id_and_span(value) {
                 let conflict = if catalogue::find(&id).is_some() {
                     Some(format!("the catalogue has a linkage `{id}` already"))
@@ -46,7 +49,7 @@ impl Templates {
                 }
                 templates.by_id.insert(id, read.clone());
             }
-            templates.manifest_templates.extend(read);
+            templates.manifest_templates.extend(read.filter(|_| !has_problems));
         }
         templates
     }

@@ -135,7 +135,7 @@ pub(crate) fn read<'t>(
         }
     }
     if let Some(value) = fields.get("ignore") {
-        let ignored = name_indices(value, "measure or column", &known, parser).unwrap_or_default();
+        let ignored = name_indices(value, "measure or column", Some(&known), parser).unwrap_or_default();
         by_name.extend(ignored.into_iter().map(|index| (known[index].to_owned(), f64::INFINITY)));
     }
     PartialTolerances { atol, rtol, measure_rtol, by_name }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use coupler_curves::expression::{Expression, Kind, Scope};
+use coupler_curves::expression::{Error, Expression, Kind, Scope};
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::Problem;
 use coupler_find::{FunctionTarget, Law, LawError};
@@ -92,7 +92,8 @@ fn parse_expression(parts: &Parts, name: &str, problems: &mut Vec<Problem>) -> O
         Ok(expression) => Some(expression),
         Err(error) => {
             let start = span.start;
-            problems.push(error.into_problem(|inner| start + inner.start..start + inner.end));
+            let problem = |error: Error| error.into_problem(|inner| start + inner.start..start + inner.end);
+            problems.extend(error.into_each().map(problem));
             None
         }
     }

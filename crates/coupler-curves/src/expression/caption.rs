@@ -1,6 +1,6 @@
 //! Captions: text with expressions in braces.
 
-use super::{Error, Expression, MathText};
+use super::{Error, Expression, MAX_ERRORS, MathText};
 use crate::text::{format_fixed, round_to_six_digits};
 
 /// A line of text with expressions in braces, as in `p = {p:.2}, area {p * r}`.
@@ -22,38 +22,43 @@ impl Caption {
     /// Parses a caption.
     ///
     /// # Errors
-    /// An unmatched brace, an expression or a number of decimals that cannot be parsed; spans are in the caption's own
+    /// Unmatched braces, expressions and numbers of decimals that cannot be parsed; spans are in the caption's own
     /// text.
     pub fn parse(text: &str) -> Result<Caption, Error> {
+        let (caption, errors) = Caption::parse_partly(text);
+        Error::joined(errors).map_or(Ok(caption), Err)
+    }
+
+    /// As much of a caption as can be parsed, and the errors in it.
+    pub fn parse_partly(text: &str) -> (Caption, Vec<Error>) {
+        let mut errors = Vec::new();
         let mut pieces = Vec::new();
         let mut literal = String::new();
         let mut at = 0;
-        while let Some(c) = text[at..].chars().next() {
+        while let Some(c) = text[at..].chars().next().filter(|_| errors.len() < MAX_ERRORS) {
             let rest = &text[at..];
             if rest.starts_with("{{") || rest.starts_with("}}") {
                 literal.push(c);
                 at += 2;
             } else if c == '{' {
-                let end = at
-                    + rest.find('}').ok_or_else(|| {
-                        Error::new(
-                            at..at + 1,
-                            "this brace is never closed",
-                            "close it with `}`, or write `{{` for a literal brace",
-                        )
-                    })?;
+                let Some(length) = rest.find('}') else {
+                    let help = "close it with `}`, or write `{{` for a literal brace";
+                    errors.push(Error::new(at..at + 1, "this brace is never closed", help));
+                    break;
+                };
                 pieces.push(Piece::Text(std::mem::take(&mut literal)));
-                pieces.push(parse_value(text, at + 1, end)?);
-                at = end + 1;
+                pieces.extend(parse_value(text, at + 1, at + length, &mut errors));
+                at += length + 1;
             } else if c == '}' {
-                return Err(Error::new(at..at + 1, "unmatched closing brace", "write `}}` for a literal brace"));
+                errors.push(Error::new(at..at + 1, "unmatched closing brace", "write `}}` for a literal brace"));
+                at += 1;
             } else {
                 literal.push(c);
                 at += c.len_utf8();
             }
         }
         pieces.push(Piece::Text(literal));
-        Ok(Caption { pieces })
+        (Caption { pieces }, errors)
     }
 
     /// The expressions in it, each with the index of its first byte in the caption.
@@ -138,23 +143,30 @@ pub(crate) fn format_number(value: f64, decimals: Option<usize>) -> String {
     decimals.map_or_else(|| round_to_six_digits(value).to_string(), |n| format_fixed(value, n))
 }
 
-/// Parses the expression and the number of decimals between the braces at `start - 1` and `end`.
-fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
+/// Parses the expression and the number of decimals between the braces at `start - 1` and `end`; without decimals if these are
+/// wrong.
+fn parse_value(text: &str, start: usize, end: usize, errors: &mut Vec<Error>) -> Option<Piece> {
     let inner = &text[start..end];
     let (source, decimals) = match inner.rfind(':') {
         None => (inner, None),
         Some(colon) => {
-            let help = "write two decimals as `{x:.2}`; there are at most 17";
-            let invalid = || Error::new(start + colon..end, "invalid number format", help);
-            let digits = inner[colon + 1..].strip_prefix('.').ok_or_else(invalid)?;
+            let digits = inner[colon + 1..].strip_prefix('.');
             // Seventeen decimals distinguish any two numbers near 1.
-            let n = digits.parse().ok().filter(|&n: &usize| n <= 17).ok_or_else(invalid)?;
-            (&inner[..colon], Some(n))
+            let decimals = digits.and_then(|digits| digits.parse().ok()).filter(|&n: &usize| n <= 17);
+            if decimals.is_none() {
+                let help = "write two decimals as `{x:.2}`; there are at most 17";
+                errors.push(Error::new(start + colon..end, "invalid number format", help));
+            }
+            (&inner[..colon], decimals)
         }
     };
-    let expression =
-        Expression::parse(source).map_err(|e| Error { span: start + e.span.start..start + e.span.end, ..e })?;
-    Ok(Piece::Value { expression, decimals, start })
+    match Expression::parse(source) {
+        Ok(expression) => Some(Piece::Value { expression, decimals, start }),
+        Err(error) => {
+            errors.push(error.moved_by(start));
+            None
+        }
+    }
 }
 
 #[cfg(test)]
@@ -174,5 +186,8 @@ mod tests {
         for (text, at) in [("a {p", 2), ("a }", 2), ("{p:2}", 2), ("{p:.99}", 2), ("{p +}", 4), ("{}", 1)] {
             assert_eq!(Caption::parse(text).expect_err(text).span.start, at, "{text}");
         }
+        let places =
+            |text: &str| Caption::parse(text).unwrap_err().into_each().map(|e| e.span.start).collect::<Vec<_>>();
+        assert_eq!(places("{p:2} a } {p +} {q:z} {r"), [2, 8, 14, 18, 22]);
     }
 }

@@ -95,6 +95,7 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
                     '°' => {
                         "leave it out: what ends in `_deg` is in degrees; the value of an angle is written `30 deg`"
                     }
+                    _ if c.is_alphabetic() => "names have letters from a to z and A to Z, digits and underscores",
                     _ => "an expression has numbers, names, + - * / ^, comparisons, and, or, not, and functions",
                 };
                 return Err(Error::new(start..at, format!("unexpected `{c}`"), help));

@@ -60,6 +60,9 @@ pub const MAX_DEPTH: usize = 100;
 #[doc(hidden)]
 pub const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 
+/// The most errors of one expression or caption that are told.
+const MAX_ERRORS: usize = 500;
+
 /// An error in an expression; the span is in bytes from the start of the expression's own text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
@@ -72,19 +75,41 @@ pub struct Error {
     pub help: String,
     /// Whether it is a name that has no meaning in a scope.
     pub is_unknown_name: bool,
+    /// What else is wrong with the expression, apart from this.
+    pub others: Vec<Error>,
 }
 
 impl Error {
-    /// What is wrong and how to fix it, in one line.
+    /// What is wrong and how to fix it, in one line, also of the others.
     pub fn message_with_help(&self) -> String {
-        if self.help.is_empty() { self.message.clone() } else { format!("{}; {}", self.message, self.help) }
+        let parts = std::iter::once(self).chain(&self.others).flat_map(|error| [&*error.message, &*error.help]);
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
     }
 
     pub(crate) fn new(span: Span, message: impl Into<String>, help: impl Into<String>) -> Error {
-        Error { message: message.into(), span, help: help.into(), is_unknown_name: false }
+        Error { message: message.into(), span, help: help.into(), is_unknown_name: false, others: Vec::new() }
     }
 
-    /// The error as a problem of a larger text; `to_outer_span` maps spans of the expression to spans of that text.
+    /// Errors of one expression as one, the first; `None` if there are none.
+    fn joined(mut errors: Vec<Error>) -> Option<Error> {
+        let others = errors.split_off(1.min(errors.len()));
+        errors.pop().map(|error| Error { others, ..error })
+    }
+
+    /// This error and the others, each by itself.
+    pub fn into_each(mut self) -> impl Iterator<Item = Error> {
+        let others = std::mem::take(&mut self.others);
+        std::iter::once(self).chain(others)
+    }
+
+    /// The same errors in a larger text, in which the expression begins at `start`.
+    pub(crate) fn moved_by(mut self, start: usize) -> Error {
+        let others = self.others.iter_mut().map(|error| &mut error.span);
+        std::iter::once(&mut self.span).chain(others).for_each(|span| *span = start + span.start..start + span.end);
+        self
+    }
+
+    /// The error, without the others, as a problem of a larger text; `to_outer_span` maps spans of the expression to spans of that text.
     pub fn into_problem(self, to_outer_span: impl FnOnce(Span) -> Span) -> Problem {
         Problem::error(to_outer_span(self.span), self.message).with_help(self.help)
     }

@@ -22,22 +22,19 @@ impl Expression {
         }
     }
 
-    /// Parses an expression and the unit of an angle after it, if any: `360/7 deg`.
+    /// Parses an expression and the unit of an angle after it, if any: `360/7 deg`. `help` says what to write in place of another word.
     ///
     /// # Errors
     /// As of [`Expression::parse`]; another word after the expression.
-    pub(crate) fn parse_with_angle_unit(text: &str) -> Result<(Expression, Option<Unit>), Error> {
+    pub(crate) fn parse_with_angle_unit(
+        text: &str,
+        help: impl FnOnce(&str) -> String,
+    ) -> Result<(Expression, Option<Unit>), Error> {
         let (expression, word) = parse_expression_and_word(text)?;
         let Some((word, span)) = word else { return Ok((expression, None)) };
         match Dimension::Angle.unit(&word) {
             Some(unit) => Ok((expression, Some(unit))),
-            None => {
-                let help = length_unit_help(&word).unwrap_or_else(|| {
-                    "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit"
-                        .to_owned()
-                });
-                Err(Error::new(span, format!("`{word}` is not a unit here"), help))
-            }
+            None => Err(Error::new(span, format!("`{word}` is not a unit here"), help(&word))),
         }
     }
 }
@@ -53,10 +50,21 @@ pub(super) fn parse_expression_and_word(text: &str) -> Result<(Expression, Optio
         }
         _ => None,
     };
-    match parser.peek() {
-        (Token::End, _) => Ok((parser.finish()?, word)),
-        (_, span) => Err(parser.unexpected(span)),
+    match (parser.peek(), word) {
+        ((Token::End, _), word) => Ok((parser.finish()?, word)),
+        ((_, span), Some((word, _))) if is_unit(&word) => {
+            let help =
+                format!("a unit is the last word, and that of the whole value before it, as in \"(2 + 3) {word}\"");
+            Err(Error::new(span.clone(), format!("unexpected `{}` after the unit `{word}`", &text[span]), help))
+        }
+        ((_, span), word) => Err(parser.unexpected(word.map_or(span, |(_, span)| span))),
     }
+}
+
+/// Whether a word is a unit of angles or lengths.
+fn is_unit(word: &str) -> bool {
+    [Dimension::Angle, Dimension::PaperLength].iter().any(|dimension| dimension.unit(word).is_some())
+        || length_unit_help(word).is_some()
 }
 
 struct Parser<'a> {
@@ -110,9 +118,13 @@ impl<'a> Parser<'a> {
                 let operator = ["and", "or", "not"].into_iter().find(|operator| word.eq_ignore_ascii_case(operator));
                 let is_after_number = matches!(self.tokens[..self.position].last(), Some((Token::Number(_), _)));
                 let length = length_unit_help(word).filter(|_| is_after_number);
+                let is_angle = is_after_number && Dimension::Angle.unit(word).is_some();
                 let help = match (operator, length) {
                     (Some(operator), _) => format!("write `{operator}`"),
                     (None, Some(help)) => help,
+                    (None, None) if is_angle => {
+                        "numbers have no unit here: `rad(30)` is 30 degrees in radians".to_owned()
+                    }
                     (None, None) => "between two values there must be an operator, as in `2 * a`".to_owned(),
                 };
                 Error::new(span, format!("unexpected `{word}`"), help)

@@ -1,6 +1,6 @@
 //! Expressions as programs of a stack machine, their kinds and their evaluation.
 
-use super::{Error, Function, Kind, Scope};
+use super::{Error, Function, Kind, MAX_ERRORS, Scope};
 use crate::geometry::trig;
 use crate::problem::Span;
 
@@ -57,16 +57,9 @@ impl Expression {
     /// # Errors
     /// It uses a name.
     pub(crate) fn constant_value(&self) -> Result<f64, Error> {
-        let load = self.program.iter().find_map(|(instruction, span)| match instruction {
-            Instruction::Load(name) => Some((&self.names[*name], span)),
-            _ => None,
-        });
-        match load {
-            Some((name, span)) => {
-                Err(Error::new(span.clone(), format!("`{name}` has no value here"), "write a number"))
-            }
-            None => Ok(self.evaluate(|_| f64::NAN)),
-        }
+        let names = self.names.iter().filter_map(|name| Some((name, self.name_span(name)?))).take(MAX_ERRORS);
+        let error = |(name, span)| Error::new(span, format!("`{name}` has no value here"), "write a number");
+        Error::joined(names.map(error).collect()).map_or_else(|| Ok(self.evaluate(|_| f64::NAN)), Err)
     }
 
     /// The names it uses, each once, in order of first use; constants such as `pi` are not among them.
@@ -107,9 +100,18 @@ impl Expression {
     /// The kind of its value, with the names of a scope.
     ///
     /// # Errors
-    /// An unknown name, with the nearest known one; a number where a boolean is expected, or the reverse.
+    /// Unknown names, each with the nearest known one; a number where a boolean is expected, or the reverse.
     pub fn check(&self, scope: &Scope) -> Result<Kind, Error> {
-        let mut stack: Vec<(Kind, Span)> = Vec::new();
+        let (kind, errors) = self.kind_and_errors(scope);
+        Error::joined(errors).map_or(Ok(kind.unwrap_or(Kind::Number)), Err)
+    }
+
+    /// The kind of its value, if the names show it, and all unknown names and the first value of a wrong kind.
+    fn kind_and_errors(&self, scope: &Scope) -> (Option<Kind>, Vec<Error>) {
+        let mut stack: Vec<(Option<Kind>, Span)> = Vec::new();
+        let mut errors: Vec<Error> = Vec::new();
+        let mut unknown: Vec<usize> = Vec::new();
+        let mut has_mismatch = false;
         for (instruction, span) in &self.program {
             let popped = match instruction {
                 Instruction::Push(_) | Instruction::Load(_) => 0,
@@ -119,34 +121,37 @@ impl Expression {
             };
             let operands = stack.split_off(stack.len() - popped);
             let (operand_kind, result_kind) = match instruction {
-                Instruction::Load(name) => {
-                    let name = &self.names[*name];
-                    let unknown = || {
-                        let help = match scope.is_empty() {
-                            true => "write a number; names cannot be used here".to_owned(),
-                            false => scope.suggestion(name),
-                        };
-                        let error = Error::new(span.clone(), format!("unknown name `{name}`"), help);
-                        Error { is_unknown_name: true, ..error }
-                    };
-                    (Kind::Number, scope.kind_of(name).ok_or_else(unknown)?)
+                Instruction::Load(index) => {
+                    let kind = scope.kind_of(&self.names[*index]);
+                    if kind.is_none() && !unknown.contains(index) && unknown.len() < MAX_ERRORS {
+                        unknown.push(*index);
+                        errors.push(unknown_name(&self.names[*index], span.clone(), scope));
+                    }
+                    (Kind::Number, kind)
                 }
-                Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => (Kind::Number, Kind::Number),
-                Instruction::Not => (Kind::Boolean, Kind::Boolean),
-                Instruction::Binary(op) => op.signature(),
+                Instruction::Push(_) | Instruction::Negate | Instruction::Call(..) => {
+                    (Kind::Number, Some(Kind::Number))
+                }
+                Instruction::Not => (Kind::Boolean, Some(Kind::Boolean)),
+                Instruction::Binary(op) => {
+                    let (operand_kind, result_kind) = op.signature();
+                    (operand_kind, Some(result_kind))
+                }
             };
-            if let Some((_, operand)) = operands.iter().find(|(kind, _)| *kind != operand_kind) {
+            let is_wrong = |kind: &Option<Kind>| kind.is_some_and(|kind| kind != operand_kind);
+            if let (Some((_, operand)), false) = (operands.iter().find(|(kind, _)| is_wrong(kind)), has_mismatch) {
                 let help = match operand_kind {
                     Kind::Number => "join comparisons with `and`: `1 < x and x < 2`",
                     Kind::Boolean => "compare it: `x > 0`",
                 };
-                return Err(Error::new(operand.clone(), operand_kind.mismatch_message(), help));
+                errors.push(Error::new(operand.clone(), operand_kind.mismatch_message(), help));
+                has_mismatch = true;
             }
             let start = operands.iter().map(|(_, s)| s.start).min().unwrap_or(span.start).min(span.start);
             let end = operands.iter().map(|(_, s)| s.end).max().unwrap_or(span.end).max(span.end);
             stack.push((result_kind, start..end));
         }
-        Ok(stack.pop().map_or(Kind::Number, |(kind, _)| kind))
+        (stack.pop().and_then(|(kind, _)| kind).filter(|_| !has_mismatch), errors)
     }
 
     /// The expression with its names looked up in `scope`, ready to be evaluated often.
@@ -154,14 +159,17 @@ impl Expression {
     /// # Errors
     /// As [`Expression::check`], and a value that is not of the `expected` kind.
     pub fn compile(&self, scope: &Scope, expected: Kind) -> Result<CompiledExpression, Error> {
-        let kind = self.check(scope)?;
-        if kind != expected {
+        let (kind, mut errors) = self.kind_and_errors(scope);
+        if kind.is_some_and(|kind| kind != expected) {
             let span = self.program.first().map_or(0, |p| p.1.start)..self.program.last().map_or(0, |p| p.1.end);
             let help = match expected {
                 Kind::Number => "give a number",
                 Kind::Boolean => "compare it: `x > 0`",
             };
-            return Err(Error::new(span, expected.mismatch_message(), help));
+            errors.push(Error::new(span, expected.mismatch_message(), help));
+        }
+        if let Some(error) = Error::joined(errors) {
+            return Err(error);
         }
         let slots = self.names.iter().filter_map(|name| scope.index_of(name)).collect();
         Ok(CompiledExpression { expression: self.clone(), slots })
@@ -192,6 +200,15 @@ impl Expression {
         }
         pop_or_nan(&mut stack)
     }
+}
+
+/// The error of a name that is not in a scope.
+fn unknown_name(name: &str, span: Span, scope: &Scope) -> Error {
+    let help = match scope.is_empty() {
+        true => "write a number; names cannot be used here".to_owned(),
+        false => scope.suggestion(name),
+    };
+    Error { is_unknown_name: true, ..Error::new(span, format!("unknown name `{name}`"), help) }
 }
 
 /// A token of an expression in postfix notation, for evaluation by another stack machine.

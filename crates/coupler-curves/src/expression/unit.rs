@@ -40,7 +40,8 @@ impl Dimension {
         self.units().iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
     }
 
-    pub(super) fn example(self) -> &'static str {
+    /// What to write for a value that has no unit of this dimension.
+    pub(crate) fn example(self) -> &'static str {
         match self {
             Dimension::Angle => "write an angle like \"2 deg\" or \"pi / 90 rad\"",
             Dimension::PaperLength => "write a length on paper like \"432 mm\", \"17 in\" or \"1224 pt\"",

@@ -50,7 +50,7 @@ impl ParameterText {
     pub fn parse(text: &str) -> Result<ParameterText, ParameterSyntaxError> {
         let error = |text: &str, message: String| ParameterSyntaxError { text: text.to_owned(), message };
         let (name, value) = text.split_once('=').ok_or_else(|| error(text, "there is no `=`".to_owned()))?;
-        let parsed = Expression::parse_with_angle_unit(value)
+        let parsed = Expression::parse_with_angle_unit(value, |word| ParameterKind::Number.unit_help(word))
             .and_then(|(expression, unit)| Ok((expression.constant_value()?, unit, expression.outermost_function())));
         let (number, unit, function) = parsed.map_err(|wrong| error(value, wrong.message))?;
         let function = function.filter(|function| function.angle_unit().is_some());

@@ -104,11 +104,11 @@ impl<'v, 't> Fields<'v, 't> {
         match self.get(key).map(|value| (value, value.get_ref())) {
             None => &[],
             Some((_, DeValue::Array(tables))) => tables,
-            Some((value, _)) => {
+            Some((value, found)) => {
                 let parent = self.display_name.strip_prefix('[').and_then(|name| name.strip_suffix(']'));
                 let path = parent.map_or(key.to_owned(), |parent| format!("{parent}.{key}"));
                 parser.report_mismatch(value, "a list of tables", &format!("write it as [[{path}]]"));
-                &[]
+                if found.is_table() { std::slice::from_ref(value) } else { &[] }
             }
         }
     }

@@ -35,6 +35,8 @@ pub(super) struct ParsedJoints {
     pub spans: Vec<(String, Span)>,
 }
 
+const TRACE_EXAMPLE: &str = "trace = [\"M\"]";
+
 /// A joint with its name, where this is, and where it is said how the joint is placed.
 struct Entry<'e> {
     name: &'e str,
@@ -50,27 +52,32 @@ pub(super) fn parse_joints<'t>(
     scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<ParsedJoints> {
-    let drawing = match linkage.get("drawing") {
-        None => None,
-        Some(value) => Some(read_drawing(value, scope, parser)?),
+    let drawing = linkage.get("drawing").and_then(|value| read_drawing(value, scope, parser));
+    let placed = drawing.as_ref().map(place).and_then(|placed| placed.map_err(|problem| parser.report(problem)).ok());
+    let table = match (linkage.get("joints"), linkage.get("drawing")) {
+        (None, Some(_)) => Some(None),
+        _ => linkage
+            .required("joints", "a table [linkage.joints], or a drawing, [linkage.drawing]", parser)
+            .and_then(|value| Fields::with_any_keys(value, "`joints`", parser).map(Some)),
     };
-    let placed = match drawing.as_ref().map(place) {
-        None => None,
-        Some(Ok(placed)) => Some(placed),
-        Some(Err(problem)) => {
-            parser.report(problem);
-            return None;
+    // Of a drawing that cannot be placed the joints have names, with which the other keys are checked.
+    let written = match (linkage.get("drawing"), &placed) {
+        (Some(drawing), None) => {
+            drawing.get_ref().as_table().and_then(|table| table.get("joints")?.get_ref().as_table())
         }
+        _ => None,
     };
-    let table = match (linkage.get("joints"), &drawing) {
-        (None, Some(_)) => None,
-        _ => {
-            let value =
-                linkage.required("joints", "a table [linkage.joints], or a drawing, [linkage.drawing]", parser)?;
-            Some(Fields::with_any_keys(value, "`joints`", parser)?)
-        }
+    let (Some(table), true) = (table, linkage.get("drawing").is_none() || placed.is_some() || written.is_some()) else {
+        linkage.required("trace", TRACE_EXAMPLE, parser);
+        return None;
     };
     let mut entries: Vec<Entry> = Vec::new();
+    entries.extend(written.into_iter().flatten().map(|(name, value)| Entry {
+        name: name.get_ref(),
+        name_span: name.span(),
+        span: value.span(),
+        is_drawn: true,
+    }));
     if let Some((drawing, placed)) = drawing.as_ref().zip(placed.as_ref()) {
         let drawn = drawing.names.iter().zip(&drawing.spans);
         entries.extend(drawn.map(|(name, [name_span, span])| Entry {
@@ -99,6 +106,7 @@ pub(super) fn parse_joints<'t>(
         placed.kinds.iter().chain(further).cloned().map(Some)
     });
     let mut parsed: Vec<Option<JointKindTemplate>> = drawn.collect();
+    parsed.resize(drawn_count, None);
     parsed
         .extend(own.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect::<Vec<_>>());
     let traced = parse_traced(linkage, &names, parser);
@@ -126,9 +134,12 @@ pub(super) fn parse_joints<'t>(
     };
     let chains = chains?;
     let loaded = linkage.get("load").and_then(|load| load.get_ref().as_table()?.get("joint")?.get_ref().as_str());
-    let loaded = loaded.and_then(|name| names.index_of(name));
-    let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).chain(loaded).collect();
-    check_unused(&entries, &placings, &needs, &traced, &named, parser);
+    let loaded = loaded.map(|name| names.index_of(name));
+    // A joint that seems to be of no use may be that of a misspelt name.
+    if loaded != Some(None) {
+        let named = seen_from.into_iter().flatten().chain(output_joints(output_link)).chain(loaded.flatten());
+        check_unused(&entries, &placings, &needs, &traced, &named.collect::<Vec<_>>(), parser);
+    }
     if seen_from.is_none() {
         check_traced_joints_move(&entries, &placings, &needs, &order, &traced, parser);
     }
@@ -168,6 +179,12 @@ pub(super) fn parse_joints<'t>(
         start: placed.map(|placed| placed.start),
         spans,
     })
+}
+
+/// The names of the joints of a linkage as they are written; `None` if they are not all known, as those of a drawing.
+pub(super) fn written_names<'v>(linkage: &Fields<'v, '_>) -> Option<Vec<&'v str>> {
+    let joints = linkage.get("joints").filter(|_| linkage.get("drawing").is_none())?.get_ref().as_table()?;
+    Some(joints.keys().map(|name| name.get_ref().as_ref()).collect())
 }
 
 /// The place of each joint in an order of all.
@@ -212,7 +229,7 @@ pub(super) fn input_kind(linkage: &Fields) -> InputKind {
 }
 
 fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
-    let value = linkage.required("trace", "trace = [\"M\"]", parser)?;
+    let value = linkage.required("trace", TRACE_EXAMPLE, parser)?;
     let list = parser.list(value)?;
     if list.is_empty() {
         parser.report(Problem::error(value.span(), "no joint is traced").with_help("name at least one, as in [\"M\"]"));

@@ -2,16 +2,18 @@
 
 use super::drawing::DRAWING;
 use super::fields::Fields;
+use super::identifiers::parse_slug;
 use super::joint_forms::joint_schemas;
 use super::joints;
-use super::load::{LOAD_KEY, parse_load};
+use super::load::{LOAD_KEY, parse_load, parse_load_on};
+use super::parameters::{PARAMETER, parse_parameters};
 use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::tolerance::{TOLERANCE_KEY, parse_tolerance};
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::expression::{Dimension, Kind, Scope, Unit};
+use crate::expression::Scope;
 use crate::linkage::{self, DwellBand};
-use crate::problem::{Problem, Span};
+use crate::problem::Problem;
 use crate::template::{
     CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, ParameterKind, Template,
 };
@@ -106,38 +108,6 @@ pub const COINCIDENT_KEY: KeySchema = KeySchema::new(
     "The dyads that change sides where several are flat at one input.",
 );
 
-static PARAMETER: TableSchema = TableSchema::new(
-    "a parameter",
-    &[
-        KeySchema::new(
-            "default",
-            ValueSchema::Number,
-            "The value where a family gives none; it may use other parameters.",
-        ),
-        KeySchema::new(
-            "example",
-            ValueSchema::Number,
-            "A value for a family to start from, where there is no default.",
-        ),
-        KeySchema::new("min", ValueSchema::Number, "The least value; a bound of 0 is itself excluded."),
-        KeySchema::new("max", ValueSchema::Number, "The greatest value; a bound of 0 is itself excluded."),
-        KeySchema::new(
-            "kind",
-            ValueSchema::Word(|| words(&PARAMETER_KINDS)),
-            "What it is a number of; by default as its use shows.",
-        ),
-        KeySchema::new(
-            "unit",
-            ValueSchema::Word(|| words(Dimension::Angle.units())),
-            "The unit of an angle; by default the one it is used with, or else radians.",
-        ),
-    ],
-);
-
-/// The words for the kinds of parameters.
-const PARAMETER_KINDS: [(&str, ParameterKind); 3] =
-    [("length", ParameterKind::Length), ("angle", ParameterKind::Angle(Unit::Rad)), ("ratio", ParameterKind::Ratio)];
-
 const FROM: KeySchema = KeySchema::required("from", ValueSchema::Input, "The input at which it begins.");
 const TO: KeySchema = KeySchema::required("to", ValueSchema::Input, "The input at which it ends.");
 static INPUT: TableSchema = TableSchema::new("an input", &[FROM, TO]);
@@ -163,14 +133,33 @@ pub const CONTINUATIONS: [(&str, Continuation); 2] =
 pub const COINCIDENT_DYADS: [(&str, CoincidentDyads); 3] =
     [("together", CoincidentDyads::Together), ("first", CoincidentDyads::First), ("last", CoincidentDyads::Last)];
 
-/// Parses a `[[linkage]]` table; `None` if it has a problem, which is reported.
+/// Parses a `[[linkage]]` table, and reports its problems. With problems in its id, its texts and its settings only there is a template all the
+/// same, so that families of the linkage can be checked.
 pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Template> {
     let before = parser.problem_count();
     let fields = Fields::from_value(value, &LINKAGE, parser)?;
-    let id = fields.required("id", "id = \"my-linkage\"", parser).and_then(|value| parse_slug(value, parser));
-    let parameters = fields.get("parameters").map(|value| parse_parameters(value, parser)).unwrap_or_default();
+    let parameters = fields.get("parameters").map_or(Some(Vec::new()), |value| parse_parameters(value, parser));
+    match parameters.filter(|_| !fields.may_be_misspelt("parameters")) {
+        Some(parameters) => parse_with_parameters(&fields, before, parameters, parser),
+        None => parser.with_unknown_names(|parser| parse_with_parameters(&fields, before, Vec::new(), parser)),
+    }
+}
+
+/// Parses the other keys of a linkage; `before` is the number of problems before it.
+fn parse_with_parameters<'t>(
+    fields: &Fields<'_, 't>,
+    before: usize,
+    parameters: Vec<(Parameter, bool)>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Template> {
     let (parameters, states_unit): (Vec<Parameter>, Vec<bool>) = parameters.into_iter().unzip();
     let scope = Scope::from_numbers(parameters.iter().map(|parameter| parameter.name.as_str()));
+    let input_kind = joints::input_kind(fields);
+    let start = fields.get("start").and_then(|value| parser.input(value, input_kind, &scope));
+    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, input_kind, &scope, parser));
+    let joints = joints::parse_joints(fields, &scope, parser);
+    let before_settings = parser.problem_count();
+    let id = fields.required("id", "id = \"my-linkage\"", parser).and_then(|value| parse_slug(value, parser));
     let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
     let source = text("source", parser).unwrap_or_default();
     let legend = text("legend", parser).unwrap_or_default();
@@ -181,18 +170,19 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         fields.get("continuation").and_then(|value| parser.word(value, &CONTINUATIONS)).unwrap_or_default();
     let coincident =
         fields.get("coincident").and_then(|value| parser.word(value, &COINCIDENT_DYADS)).unwrap_or_default();
-    let input_kind = joints::input_kind(&fields);
-    let start = fields.get("start").and_then(|value| parser.input(value, input_kind, &scope));
-    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, input_kind, &scope, parser));
     let arc = fields.get("arc").and_then(|value| parse_arc(value, input_kind, &scope, parser));
-    let joints = joints::parse_joints(&fields, &scope, parser);
+    let settings_problems = parser.problem_count() - before_settings;
     if let (Some(start), Some(_)) = (fields.get("start"), fields.get("drawing")) {
         let problem = Problem::error(start.span(), "the drawing is the start of the motion");
         parser.report(problem.with_help("leave `start` out, or draw the linkage in that pose"));
     }
-    let (id, joints) = (id?, joints?);
+    let Some(joints) = joints else {
+        fields.get("tolerance").and_then(|value| parse_tolerance(value, None, parser));
+        fields.get("load").and_then(|value| parse_load_on(value, joints::written_names(fields), |_| false, parser));
+        return None;
+    };
     let mut template = Template {
-        id,
+        id: id.unwrap_or_default(),
         source,
         legend,
         caption,
@@ -230,8 +220,8 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
             ..template.clone()
         }));
     }
-    template.tolerance = fields.get("tolerance").and_then(|value| parse_tolerance(value, &template, parser));
-    template.load = fields.get("load").and_then(|value| parse_load(value, &template.joints, parser));
+    template.tolerance = fields.get("tolerance").and_then(|value| parse_tolerance(value, Some(&template), parser));
+    template.load = fields.get("load").and_then(|value| parse_load(value, Some(&template.joints), parser));
     for ((kind, states_unit), parameter) in
         template.infer_kinds().into_iter().zip(states_unit).zip(&mut template.parameters)
     {
@@ -251,100 +241,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         let span = joint_span.or_else(|| fields.get(key).map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
         parser.report(Problem::error(span, error.to_string()).with_help(error.help()));
     }
-    (parser.problem_count() == before).then_some(template)
-}
-
-/// Parses a name for folders and files: at most 64 lower-case letters, digits and single hyphens, and not a device name
-/// of Windows.
-pub fn parse_slug<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<String> {
-    let text = parser.text(value)?;
-    let parts_are_plain = text
-        .split('-')
-        .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit()));
-    if is_windows_device(&text) {
-        let problem = Problem::error(value.span(), format!("the id `{text}` is a device name on Windows"));
-        let help = format!("an id names folders and files; choose another, as in \"{text}-1\"");
-        parser.report(problem.with_help(help));
-        return None;
-    }
-    if parts_are_plain && text.len() <= 64 {
-        return Some(text);
-    }
-    let lower = text.to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty()).collect();
-    let suggestion = if words.is_empty() { "evans".to_owned() } else { words.join("-").chars().take(64).collect() };
-    let problem = Problem::error(value.span(), format!("the id `{}` is not a slug", text.escape_debug()));
-    parser.report(problem.with_help(format!(
-        "it names folders and files: lower-case letters, digits and hyphens, as in \"{suggestion}\""
-    )));
-    None
-}
-
-/// Whether Windows reserves a name for a device (Microsoft, *Naming files, paths, and namespaces*).
-fn is_windows_device(name: &str) -> bool {
-    let port = name.strip_prefix("com").or_else(|| name.strip_prefix("lpt"));
-    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|b| b.is_ascii_digit()));
-    is_port || ["con", "prn", "aux", "nul"].contains(&name)
-}
-
-/// Parses the parameters, and whether each states its unit.
-fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Vec<(Parameter, bool)> {
-    let Some(table) = Fields::with_any_keys(value, "`parameters`", parser) else { return Vec::new() };
-    let scope = Scope::from_numbers(table.keys());
-    let mut out = Vec::new();
-    for (name, span, value) in table.entries() {
-        check_identifier(name, span, parser);
-        let Some(fields) = Fields::from_value(value, &PARAMETER, parser) else { continue };
-        let default = fields.get("default").and_then(|value| {
-            let expression = parser.expression(value)?;
-            let compiled = expression.compile(&scope, Kind::Number);
-            parser.ok_or_report(value, compiled).map(|_| expression)
-        });
-        let limit = |key, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.constant(value));
-        let (min, max) = (limit("min", parser), limit("max", parser));
-        if let (Some(min), Some(max)) = (min, max)
-            && min > max
-        {
-            let problem =
-                Problem::error(fields.span.clone(), format!("the least value {min} is above the greatest {max}"));
-            parser.report(problem.with_help("exchange `min` and `max`"));
-        }
-        let kind = fields.get("kind").and_then(|value| parser.word(value, &PARAMETER_KINDS));
-        let unit = fields.get("unit").and_then(|value| Some((value, parser.word(value, Dimension::Angle.units())?)));
-        let kind = match (kind, unit) {
-            (None | Some(ParameterKind::Angle(_)), Some((_, unit))) => ParameterKind::Angle(unit),
-            (Some(kind), Some((value, _))) => {
-                let problem = Problem::error(value.span(), format!("`{name}` is {}", kind.description()));
-                parser.report(problem.with_help("only angles have a unit: leave it out, or write kind = \"angle\""));
-                kind
-            }
-            (kind, None) => kind.unwrap_or_default(),
-        };
-        let default_text = fields.get("default").map(|value| parser.value_text(value)).unwrap_or_default();
-        let example = limit("example", parser);
-        let parameter = Parameter { name: name.to_owned(), kind, default, default_text, example, min, max };
-        out.push((parameter, unit.is_some()));
-    }
-    out
-}
-
-/// Reports a parameter, helper or grid name that cannot be used in an expression.
-pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
-    if let Some(message) = identifier_error(name) {
-        parser.report(Problem::error(span, message).with_help(IDENTIFIER_HELP));
-    }
-}
-
-/// What a name is that expressions may use.
-pub const IDENTIFIER_HELP: &str = "a name is a letter, then letters, digits and underscores";
-
-/// Why expressions cannot use a name, if they cannot.
-pub fn identifier_error(name: &str) -> Option<String> {
-    let first = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
-    let is_word = first && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    let is_reserved = ["and", "or", "not", "pi"].contains(&name);
-    let why = if is_reserved { "is reserved" } else { "cannot be used in an expression" };
-    (!is_word || is_reserved).then(|| format!("the name `{}` {why}", name.escape_debug()))
+    (parser.problem_count() == before + settings_problems).then_some(template)
 }
 
 fn parse_input_range<'t>(
@@ -373,19 +270,16 @@ fn parse_arc<'t>(
     scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<([InputValue; 2], i8)> {
-    let range = parse_input_range(value, &ARC, kind, scope, parser)?;
-    let fields = Fields::with_any_keys(value, "an arc", parser)?;
-    let branch = match fields.get("branch") {
-        None => 1,
-        Some(branch) => match parser.constant(branch)? {
-            1.0 => 1,
-            -1.0 => -1,
-            _ => {
-                parser
-                    .report(Problem::error(branch.span(), "a branch must be 1 or -1").with_help("1 is left, -1 right"));
-                return None;
-            }
-        },
+    let range = parse_input_range(value, &ARC, kind, scope, parser);
+    let given = value.get_ref().as_table().and_then(|table| table.get("branch"));
+    let branch = match given.map(|branch| (branch, parser.constant(branch))) {
+        None | Some((_, Some(1.0))) => Some(1),
+        Some((_, Some(-1.0))) => Some(-1),
+        Some((branch, Some(_))) => {
+            parser.report(Problem::error(branch.span(), "a branch must be 1 or -1").with_help("1 is left, -1 right"));
+            None
+        }
+        Some((_, None)) => None,
     };
-    Some((range, branch))
+    range.zip(branch)
 }

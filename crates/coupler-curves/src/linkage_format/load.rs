@@ -31,17 +31,32 @@ static LOAD: TableSchema = TableSchema::new(
     ],
 );
 
-/// Parses a load on one of the joints of a template.
+/// Parses a load on one of the joints of a template, if they are known.
 pub fn parse_load<'t>(
     value: &TomlValue<'t>,
-    joints: &[JointTemplate],
+    joints: Option<&[JointTemplate]>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Load<usize>> {
+    let names = joints.map(|joints| joints.iter().map(|joint| joint.name.as_str()).collect());
+    parse_load_on(value, names, |joint| joints.is_some_and(|joints| joints[joint].kind.point_count() > 1), parser)
+}
+
+/// Parses a load on one of the joints with these names, if they are known, of which some are grids of points.
+pub(super) fn parse_load_on<'t>(
+    value: &TomlValue<'t>,
+    names: Option<Vec<&str>>,
+    is_grid: impl Fn(usize) -> bool,
     parser: &mut TomlParser<'t>,
 ) -> Option<Load<usize>> {
     let fields = Fields::from_value(value, &LOAD, parser)?;
-    let names = JointNames::new(joints.iter().map(|joint| joint.name.as_str()).collect());
+    let names = names.map(JointNames::new);
     let joint = fields.required("joint", "joint = \"C\"", parser).and_then(|value| {
-        let joint = parse_joint_ref(value, &names, parser)?;
-        if joints[joint].kind.point_count() == 1 {
+        let Some(names) = &names else {
+            parser.text(value);
+            return None;
+        };
+        let joint = parse_joint_ref(value, names, parser)?;
+        if !is_grid(joint) {
             return Some(joint);
         }
         let problem = Problem::error(value.span(), format!("`{}` is a grid of points", names.all()[joint]));
@@ -58,8 +73,8 @@ pub fn parse_load<'t>(
         None
     });
     let direction_deg = match fields.get("direction") {
-        None => None,
-        Some(value) => Some(parser.constant_quantity(value, Dimension::Angle)?),
+        None => Some(None),
+        Some(value) => parser.constant_quantity(value, Dimension::Angle).map(Some),
     };
-    Some(Load { joint: joint?, force: force?, direction_deg })
+    Some(Load { joint: joint?, force: force?, direction_deg: direction_deg? })
 }

@@ -4,6 +4,7 @@ mod canonical;
 mod drawing;
 mod entries;
 mod fields;
+mod identifiers;
 mod joint_forms;
 mod joint_id;
 mod joint_values;
@@ -11,6 +12,7 @@ mod joints;
 mod linkage;
 mod load;
 mod names;
+mod parameters;
 mod quantities;
 mod schema;
 mod syntax_errors;
@@ -22,9 +24,10 @@ mod toml_parser;
 pub use self::{
     canonical::{canonical_toml, quoted, toml_key, toml_number},
     fields::{Fields, one_or_more},
+    identifiers::{check_identifier, identifier_error, parse_slug},
     linkage::{
         CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
-        IDENTIFIER_HELP, check_identifier, identifier_error, parse_slug, parse_template,
+        parse_template,
     },
     load::{LOAD_KEY, parse_load},
     schema::{KeySchema, TableSchema, ValueSchema, words},

@@ -34,16 +34,19 @@ fn is_number(value: &TomlValue) -> bool {
 
 impl<'t> TomlParser<'t> {
     /// A value of a parameter: a number, or an expression in quotes, which for an angle may have a unit. Of a name that
-    /// is not a parameter the kind is [`ParameterKind::Number`].
+    /// is not a parameter the kind is [`ParameterKind::Number`]; without a kind it is not known whether it is one, and which.
     pub fn parameter_expression(
         &mut self,
         value: &TomlValue<'t>,
         name: &str,
-        kind: ParameterKind,
+        kind: Option<ParameterKind>,
     ) -> Option<Expression> {
         match value.get_ref() {
             DeValue::String(text) => {
-                let parsed = kind.parse_value(name, text);
+                let parsed = match kind {
+                    Some(kind) => kind.parse_value(name, text),
+                    None => ParameterKind::parse_any_value(text),
+                };
                 self.ok_or_report(value, parsed)
             }
             _ => self.expression(value),
@@ -51,7 +54,7 @@ impl<'t> TomlParser<'t> {
     }
 
     /// A value of a parameter, as [`TomlParser::parameter_expression`], without names.
-    pub fn parameter_value(&mut self, value: &TomlValue<'t>, name: &str, kind: ParameterKind) -> Option<f64> {
+    pub fn parameter_value(&mut self, value: &TomlValue<'t>, name: &str, kind: Option<ParameterKind>) -> Option<f64> {
         let expression = self.parameter_expression(value, name, kind)?;
         let compiled = expression.compile(&Scope::default(), Kind::Number);
         let compiled = self.ok_or_report(value, compiled)?;

@@ -6,7 +6,12 @@ use crate::problem::{Problem, Span};
 /// The problem for a syntax error at a place with the message of the TOML parser.
 pub(super) fn syntax_problem(text: &str, span: Span, message: &str) -> Problem {
     let [message, help] = slip(text, &span, message).unwrap_or_else(|| {
-        [message.to_owned(), "see https://toml.io for how tables, keys and values are written".to_owned()]
+        let help = match message {
+            "duplicate key" => "leave one of the two out, or give it another name",
+            message if message.contains("recurs") => "put fewer lists and tables into each other",
+            _ => "see https://toml.io for how tables, keys and values are written",
+        };
+        [message.to_owned(), help.to_owned()]
     });
     Problem::error(span, format!("invalid TOML: {message}")).with_help(help)
 }

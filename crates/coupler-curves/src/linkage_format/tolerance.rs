@@ -12,8 +12,12 @@ pub const TOLERANCE_KEY: KeySchema = KeySchema::new(
     "How far each length of the linkage may be off: measures of the moves of the curve follow from it, and a band along it.",
 );
 
-/// Parses the tolerance of the lengths of a template.
-pub fn parse_tolerance<'t>(value: &TomlValue<'t>, template: &Template, parser: &mut TomlParser<'t>) -> Option<f64> {
+/// Parses the tolerance of the lengths of a template, if it is known.
+pub fn parse_tolerance<'t>(
+    value: &TomlValue<'t>,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<f64> {
     let tolerance = parser.constant(value)?;
     if tolerance <= 0.0 {
         let problem = Problem::error(value.span(), format!("`tolerance` must be greater than 0, found {tolerance}"));
@@ -21,6 +25,7 @@ pub fn parse_tolerance<'t>(value: &TomlValue<'t>, template: &Template, parser: &
             .report(problem.with_help("it is a length, such as 0.1: each length of the linkage is off by it at most"));
         return None;
     }
+    let template = template?;
     if template.lengths().is_none() {
         let message = format!("`{}`: {}", template.id, Template::NO_LENGTHS);
         let help = "leave `tolerance` out, or trace one point of the grid";

@@ -24,6 +24,8 @@ pub struct TomlParser<'t> {
     problem_count: usize,
     /// The entries with a syntax error.
     broken_entries: Vec<Span>,
+    /// Whether it is not known which names expressions may use.
+    ignores_unknown_names: bool,
     /// The tables of the document, among which those are looked for that have a key which is in another.
     root: Option<&'static TableSchema>,
 }
@@ -31,7 +33,22 @@ pub struct TomlParser<'t> {
 impl<'t> TomlParser<'t> {
     /// A parser of a text.
     pub fn new(text: &'t str) -> TomlParser<'t> {
-        TomlParser { text, problems: Vec::new(), problem_count: 0, broken_entries: Vec::new(), root: None }
+        TomlParser {
+            text,
+            problems: Vec::new(),
+            problem_count: 0,
+            broken_entries: Vec::new(),
+            ignores_unknown_names: false,
+            root: None,
+        }
+    }
+
+    /// What is read where it is not known which names expressions may use: other errors in them are reported.
+    pub fn with_unknown_names<T>(&mut self, read: impl FnOnce(&mut TomlParser<'t>) -> T) -> T {
+        let before = std::mem::replace(&mut self.ignores_unknown_names, true);
+        let read = read(self);
+        self.ignores_unknown_names = before;
+        read
     }
 
     /// The same of a document with these tables.
@@ -257,24 +274,26 @@ impl<'t> TomlParser<'t> {
     /// A caption with expressions over `scope`; each of `words` may be used as an expression by itself.
     pub fn caption(&mut self, value: &TomlValue<'t>, scope: &Scope, words: &[&str]) -> Option<Caption> {
         let text = self.text(value)?;
-        let unfold = |error: expression::Error| expression::Error { span: unfold_span(value, error.span), ..error };
-        let parsed = Caption::parse(&text).map_err(unfold);
-        let caption = self.ok_or_report(value, parsed)?;
+        let (caption, mut errors) = Caption::parse_partly(&text);
         for (expression, start) in caption.expressions() {
             let is_word = expression.as_name().is_some_and(|name| words.contains(&name));
-            if self.problem_count >= MAX_PROBLEMS {
+            if self.problem_count + errors.len() >= MAX_PROBLEMS {
                 break;
             }
-            if let (Err(mut error), false) = (expression.compile(scope, Kind::Number), is_word) {
-                let is_measure = |name: &String| scope.index_of(name).is_none() && Measure::find(name).is_some();
-                if let Some(name) = expression.names().iter().find(|name| is_measure(name)) {
-                    error.help = format!("`{name}` is a measure: write it in the caption of a [[family]]");
-                }
-                let span = start + error.span.start..start + error.span.end;
-                self.ok_or_report::<()>(value, Err(unfold(expression::Error { span, ..error })));
+            if let (Err(error), false) = (expression.compile(scope, Kind::Number), is_word) {
+                errors.extend(error.moved_by(start).into_each());
             }
         }
-        Some(caption)
+        errors.sort_by_key(|error| error.span.start);
+        for mut error in errors.iter().cloned() {
+            let name = &text[error.span.clone()];
+            if error.is_unknown_name && Measure::find(name).is_some() {
+                error.help = format!("`{name}` is a measure: write it in the caption of a [[family]]");
+            }
+            error.span = unfold_span(value, error.span);
+            self.ok_or_report::<()>(value, Err(error));
+        }
+        errors.is_empty().then_some(caption)
     }
 
     /// The value of a TOML number.
@@ -319,15 +338,18 @@ impl<'t> TomlParser<'t> {
         self.text.get(value.span()).unwrap_or_default()
     }
 
-    /// The result; an error is reported at its place inside the string `value`.
+    /// The result; errors are reported at their places inside the string `value`.
     pub fn ok_or_report<T>(&mut self, value: &TomlValue<'t>, result: Result<T, expression::Error>) -> Option<T> {
         match result {
             Ok(result) => Some(result),
-            // The name may be given its value in an entry that could not be read.
-            Err(error) if self.has_syntax_error() && error.is_unknown_name => None,
             Err(error) => {
-                let problem = error.into_problem(|inner| self.span_in_string(value, inner));
-                self.report(problem);
+                for error in error.into_each() {
+                    // The name may be given its value in an entry that could not be read.
+                    if !(error.is_unknown_name && (self.has_syntax_error() || self.ignores_unknown_names)) {
+                        let problem = error.into_problem(|inner| self.span_in_string(value, inner));
+                        self.report(problem);
+                    }
+                }
                 None
             }
         }

@@ -1,6 +1,6 @@
 //! The parameters of a template.
 
-use crate::expression::{Error, Expression, Function, Unit};
+use crate::expression::{Dimension, Error, Expression, Function, Unit, length_unit_help};
 
 /// A parameter of a template.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,11 +95,33 @@ impl ParameterKind {
     /// What is not an expression; a unit where there is none; a number of degrees for radians, or the reverse, which the
     /// outermost function shows.
     pub fn parse_value(self, name: &str, text: &str) -> Result<Expression, Error> {
-        let (expression, unit) = Expression::parse_with_angle_unit(text)?;
+        let (expression, unit) = Expression::parse_with_angle_unit(text, |word| self.unit_help(word))?;
         match self.conversion(name, unit, expression.outermost_function()) {
             Ok(None) => Ok(expression),
             Ok(Some(function)) => Ok(expression.with_function(function)),
             Err([message, help]) => Err(Error::new(0..text.len(), message, help)),
+        }
+    }
+
+    /// Parses a value of a parameter of which it is not known what it is a number of: an expression, which may have a unit of angles.
+    ///
+    /// # Errors
+    /// What is not an expression, and another unit.
+    pub(crate) fn parse_any_value(text: &str) -> Result<Expression, Error> {
+        let parsed = Expression::parse_with_angle_unit(text, |word| ParameterKind::Number.unit_help(word));
+        parsed.map(|(expression, _)| expression)
+    }
+
+    /// What to do about a word after a value that is no unit of an angle.
+    pub(crate) fn unit_help(self, word: &str) -> String {
+        let length = || length_unit_help(word);
+        match self {
+            ParameterKind::Angle(_) => Dimension::Angle.example().to_owned(),
+            ParameterKind::Length => length().unwrap_or_else(|| "give a length as a number without a unit".to_owned()),
+            ParameterKind::Ratio => "give a ratio as a number without a unit".to_owned(),
+            ParameterKind::Number => length().unwrap_or_else(|| {
+                "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit".to_owned()
+            }),
         }
     }
 
