@@ -63,6 +63,7 @@ impl<'a> FamilyScript<'a> {
                 "layout": layout,
                 "panels": has_panels.then(|| self.planned.layout.cells_per_page()),
                 "sampling": sampling_json(family.sampling),
+                "paths": self.path_names(),
                 "is_length": family.template.is_driven_by_length(),
                 "paper": { "width": paper.width, "height": paper.height, "is_dark": is_dark },
                 // What the kernel opens: all that determines a curve whose assigned values are known.
@@ -76,6 +77,15 @@ impl<'a> FamilyScript<'a> {
             }),
         );
         format!("{begin}{statements}{}", self.end())
+    }
+
+    /// What pages call the curve of each traced joint; none if it is the number of its point.
+    fn path_names(self) -> Vec<String> {
+        let template = &self.planned.family.template;
+        let Ok(linkage) = template.structure() else { return Vec::new() };
+        let names = (1..=template.curve_count()).filter_map(|trace| self.planned.layout.curve_name(&linkage, trace));
+        let names: Vec<String> = names.map(|name| name.join(" ")).collect();
+        if names.iter().all(|name| name.starts_with("point ")) { Vec::new() } else { names }
     }
 
     /// The first statement of a piece.

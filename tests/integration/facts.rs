@@ -116,8 +116,14 @@ fn portions_with_a_mirror_image_are_there_twice_if_that_takes_as_much_input() {
 /// A portion whose mirror image is partly on it is one with that.
 #[test]
 fn portions_that_overlap_their_mirror_images_are_one() {
-    let [svg, _] = rendered("[[family]]\nid = \"f\"\nlinkage = \"evans\"\ncases = [{ p = 3, s = 4.1, a = 4.1 }]\n");
-    assert!(svg.contains("straight ") && !svg.contains("also mirrored") && !svg.contains(", twice"), "{svg}");
+    // Of 105 samples of the first portion 27 are on its mirror image, of 272 of the second 21, and none of the third.
+    for (s, is_apart) in [(3.9, false), (4.1, false), (4.2, true)] {
+        let [svg, _] = rendered(&format!(
+            "[[family]]\nid = \"f\"\nlinkage = \"evans\"\ncases = [{{ p = 3, s = {s}, a = {s} }}]\n"
+        ));
+        let has_image = svg.contains("also mirrored") || svg.contains(", twice");
+        assert!(svg.contains("straight ") && has_image == is_apart, "{s}: {svg}");
+    }
 }
 
 #[test]

@@ -149,6 +149,7 @@ type FamilyHead = Record<"id" | "title" | "linkage" | "manifest", string> &
     /** The number of panels on a page; null if it does not say which cells a page has. */
     panels: number | null;
     sampling: { step?: number; samples?: number; spacing?: string };
+    paths: string[];
     is_length: boolean;
     paper: Size & { is_dark: boolean };
     free: number[];

@@ -176,8 +176,9 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
     for (title, page) in &charts {
         for (corners, to) in pdf.links(*page) {
             let texts = texts_in(pdf, *page, corners);
-            // The marks of the thumb index have no number, and that of a page is after those of its points.
-            let Some(number) = texts.iter().rev().find_map(|text| text.parse::<usize>().ok()) else { continue };
+            // The marks of the thumb index have no page.
+            let page_of = |text: &String| text.strip_prefix("page ")?.parse::<usize>().ok();
+            let Some(number) = texts.iter().find_map(page_of) else { continue };
             assert_eq!(pdf.labels()[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
             let plate: String = pdf.contents(to).texts.into_iter().map(|(text, ..)| text).collect();
             let value: f64 = title.strip_prefix("C = ").unwrap().parse().unwrap();

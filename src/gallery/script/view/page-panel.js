@@ -62,9 +62,10 @@ function curveRow(family, curve, { one, onenter, onleave }) {
   );
 }
 
-/** The label of the traced point of a curve, if the linkage has several. @param {Family} family */
+/** What pages call a curve by its traced point, if the linkage has several. @param {Family} family */
 export function pointLabel(family, /** @type {number} */ curve) {
-  return family.traces > 1 ? `point ${family.curves.trace[curve]}` : "";
+  const trace = family.curves.trace[curve];
+  return family.traces > 1 ? (family.paths[trace - 1] ?? `point ${trace}`) : "";
 }
 
 /** The linkages that could not be assembled, each with the reason. @param {Family} family */
@@ -152,6 +153,6 @@ export function pageLabel(/** @type {Family} */ family, /** @type {number} */ pa
   if (cells.length > 1) return `linkages ${numbers[0]}–${numbers.at(-1)}`;
   const caption = cellLabel(family, cells[0], "linkage");
   const traces = pageViews(family, page).flatMap((view) => view.curves.map((c) => family.curves.trace[c]));
-  if (traces.length < 2) return caption;
+  if (traces.length < 2 || family.paths.length > 0) return caption;
   return `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}`;
 }
