@@ -113,6 +113,14 @@ fn portions_with_a_mirror_image_are_there_twice_if_that_takes_as_much_input() {
     }
 }
 
+#[test]
+fn a_plate_of_a_second_point_names_its_path() {
+    let folder = folder_with("");
+    printed(folder.path(), &["export", "--linkage", "slider-crank", "--format", "svg", "-o", "out"]);
+    let svg = fs::read_to_string(folder.path().join("out/slider-crank-1-2-1.svg")).unwrap();
+    assert!(svg.contains(">path of B</text>"), "{svg}");
+}
+
 /// A portion whose mirror image is partly on it is one with that.
 #[test]
 fn portions_that_overlap_their_mirror_images_are_one() {

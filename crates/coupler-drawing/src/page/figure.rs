@@ -429,7 +429,8 @@ impl<'a> Figure<'a> {
             // Of more curves than inks, several have one.
             let curves = solved.curves.iter().filter(|curve| self.style_index(curve) % inks == style);
             let curves: Vec<&MeasuredCurve> = curves.collect();
-            let Some(first) = curves.first() else { break };
+            // A plate of one curve has none of the points before it.
+            let Some(first) = curves.first() else { continue };
             // In the order of the curves, so that M2 is before M10.
             let mut names: Vec<[String; 2]> = Vec::new();
             for name in curves.iter().filter_map(|curve| marks::path_name(solved, curve)) {

@@ -11,6 +11,9 @@ const MOST: f64 = 0.4;
 /// The distance of columns, in ems.
 const GAP: f64 = 1.2;
 
+/// The most labels for which all are tried to be shown; no page has room for more.
+pub(super) const MOST_LABELS: usize = 500;
+
 /// The places of the labels in a legend.
 #[derive(Clone, Debug)]
 pub(super) struct Legend {
@@ -30,8 +33,9 @@ pub(super) struct Legend {
 impl Legend {
     /// The legend of labels below a chart of a size; empty labels have no place.
     pub fn new(texts: (&str, &[Option<String>]), chart: Vector, symbols: &[String], theme: &Theme) -> Legend {
-        let mut sizes = line_labels::sizes(theme).map(|theme| Legend::of_size(texts, chart, symbols, theme));
-        sizes
+        let sizes = line_labels::sizes(theme).filter(|_| texts.1.len() <= MOST_LABELS);
+        { sizes }
+            .map(|theme| Legend::of_size(texts, chart, symbols, theme))
             .find(|legend| legend.step == 1)
             .unwrap_or_else(|| Legend::of_size(texts, chart, symbols, line_labels::smallest(theme)))
     }

@@ -73,13 +73,14 @@ pub(super) struct Space {
     pub width: f64,
 }
 
-/// The theme with texts that are smaller and smaller, and with those of the least size.
+/// The theme with texts that are smaller and smaller.
 pub(super) fn sizes(theme: &Theme) -> impl Iterator<Item = Theme> {
     const PARTS: [f64; 7] = [1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7];
     let least = MIN_TEXT_SIZE.min(theme.note_size);
     PARTS.into_iter().map(move |part| Theme { note_size: (part * theme.note_size).max(least), ..theme.clone() })
 }
 
+/// The theme with texts of the least size.
 pub(super) fn smallest(theme: &Theme) -> Theme {
     Theme { note_size: MIN_TEXT_SIZE.min(theme.note_size), ..theme.clone() }
 }

@@ -23,6 +23,7 @@ use crate::chart::PointSource;
 use crate::scene::{Group, Scene};
 use coupler_curves::geometry::{Point, Vector};
 use figure::{ChartFigure, LineFeatures};
+use legend::MOST_LABELS;
 
 /// Composes a page of charts.
 pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
@@ -66,7 +67,7 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, options: &Options, theme: &T
     if let (Some((key, _)), false) = (&key, has_key) {
         notes.push(key_division::left_out_note(contents.size, grid, key, options));
     }
-    if omitted_in(contents, theme) > 0 {
+    if page.series.len() <= MOST_LABELS && omitted_in(contents, theme) > 0 {
         let taken = heading::contents_size(options.paper, theme) - contents.size;
         let has_room = |paper: &Paper| {
             let theme = &options.theme.for_paper(*paper);
