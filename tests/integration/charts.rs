@@ -384,7 +384,7 @@ fn a_chart_is_the_same_with_any_number_of_jobs() {
     assert!(run("1") == run("8"));
 }
 
-/// Ten thousand cells make lines of a hundred points for each of a hundred labels, some of which are on the page.
+/// Ten thousand cells make lines of a hundred points for each of a hundred labels, all of which have room in columns below their chart.
 #[test]
 #[ignore = "thorough"]
 fn ten_thousand_cells_make_a_chart() {
@@ -395,7 +395,7 @@ fn ten_thousand_cells_make_a_chart() {
     let svg = page(&rendered(&text), 1);
     // The transmission angle is the same for each k.
     assert_eq!(svg.matches("class=\"series\"").count(), 101);
-    assert!(svg.contains(">and ") && svg.contains(" more</text>"));
+    assert!(!svg.contains(" more</text>"));
 }
 
 /// Curves beyond the limit on numbers are counted, and none of their numbers is kept.

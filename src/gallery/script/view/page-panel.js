@@ -64,8 +64,7 @@ function curveRow(family, curve, { one, onenter, onleave }) {
 
 /** What pages call a curve by its traced point, if the linkage has several. @param {Family} family */
 export function pointLabel(family, /** @type {number} */ curve) {
-  const trace = family.curves.trace[curve];
-  return family.traces > 1 ? (family.paths[trace - 1] ?? `point ${trace}`) : "";
+  return family.traces > 1 ? (family.paths[family.curves.trace[curve] - 1] ?? `point ${family.curves.trace[curve]}`) : "";
 }
 
 /** The linkages that could not be assembled, each with the reason. @param {Family} family */
@@ -153,6 +152,6 @@ export function pageLabel(/** @type {Family} */ family, /** @type {number} */ pa
   if (cells.length > 1) return `linkages ${numbers[0]}–${numbers.at(-1)}`;
   const caption = cellLabel(family, cells[0], "linkage");
   const traces = pageViews(family, page).flatMap((view) => view.curves.map((c) => family.curves.trace[c]));
-  if (traces.length < 2 || family.paths.length > 0) return caption;
-  return `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}`;
+  const isRange = traces.length > 1 && family.paths.length === 0;
+  return isRange ? `${caption} · points ${Math.min(...traces)}–${Math.max(...traces)}` : caption;
 }
