@@ -859,8 +859,8 @@ fn all_lengths_are_stated_however_long_the_names_and_small_the_paper() {
         for whole in [
             "crank O–Crankpin: 1",
             "coupler length = 3",
-            "rocker C–Knuckle: 100 / 33",
-            "from (0, 0) to (10 / 3, 5 / 3)",
+            "rocker C–Knuckle: 100 / 33 ≈ 3.0303",
+            "from (0, 0) to (10 / 3 ≈ 3.33333, 5 / 3 ≈ 1.66667)",
         ] {
             assert!(all.contains(whole), "{paper}: {whole}: {all}");
         }

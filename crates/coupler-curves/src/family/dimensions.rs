@@ -3,9 +3,7 @@
 use super::{Cell, Family, ParameterSpace};
 use crate::expression::{Caption, CompiledExpression, MathText, Unit, displayed_name, format_number};
 use crate::template::ParameterKind;
-use crate::text::{
-    MAX_WRITTEN_DIGITS, count_digits, format_as_written, format_for_building, format_in_full, is_same_number,
-};
+use crate::text::{format_as_written, format_for_building, format_in_full_if_short, is_same_number};
 
 /// A name that the caption of a cell should show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -223,10 +221,9 @@ impl Family {
 /// rounded, to six significant digits, as one is that takes more digits than anyone writes and so was computed.
 pub(super) fn given_number(value: f64, decimals: Option<usize>) -> (bool, String) {
     let (is_rounded, stated) = rounded_number(value, decimals);
-    let in_full = format_in_full(value);
-    match count_digits(&in_full) {
+    match format_in_full_if_short(value) {
+        Some(in_full) if is_rounded => (false, in_full),
         _ if !is_rounded => (false, stated),
-        0..=MAX_WRITTEN_DIGITS => (false, in_full),
         _ => rounded_number(value, None),
     }
 }

@@ -3,7 +3,6 @@
 use super::anchor::{Anchor, Frame};
 use super::hole::{Hole, Slot, join_names};
 use super::pitch_line::PitchLine;
-use super::sizes::Sizes;
 use crate::geometry::{Bounds, Point, Vector, cross};
 use crate::linkage::{JointId, JointKind, Linkage};
 use crate::motion::Circuit;
@@ -76,10 +75,10 @@ impl Body {
         holes.retain(|hole| !mere_points.contains(&hole.centre) || !slots.iter().any(|slot| is_on(slot, hole.centre)));
     }
 
-    /// Takes the holes that are in a slot of a block off it, to a plate over the slot that the guide pins hold on the block.
-    pub fn take_bridge(&mut self, sizes: Sizes) -> Option<Body> {
+    /// Takes the holes of a block that are nearer than a distance to the centre line of a slot off it, to a plate over the slot that the guide pins hold on the block.
+    pub fn take_bridge(&mut self, clearance: f64) -> Option<Body> {
         let block = self.block.filter(|_| self.holes.iter().any(|hole| hole.name.is_empty()))?;
-        let is_over = |hole: &Hole| self.slots.iter().any(|slot| slot.distance_to(hole.centre) < sizes.clearance());
+        let is_over = |hole: &Hole| self.slots.iter().any(|slot| slot.distance_to(hole.centre) < clearance);
         let holes: Vec<Hole> =
             self.holes.iter().filter(|hole| hole.name.is_empty() || is_over(hole)).cloned().collect();
         if holes.iter().all(|hole| hole.name.is_empty()) {

@@ -16,6 +16,7 @@ mod outline;
 mod part;
 mod pitch_circle;
 mod pitch_line;
+mod racks;
 mod sizes;
 mod slides;
 
@@ -57,7 +58,7 @@ impl Parts {
         let (circles, idlers) = (pitch_circles(linkage, circuit), idlers(linkage, circuit));
         let sizes = sizes::resolve(&bodies, (&circles, &idlers), given)?;
         let gears = gears::add(&mut bodies, linkage, (&circles, &idlers), sizes);
-        pitch_line::add(&mut bodies, (linkage, circuit), sizes);
+        racks::add(&mut bodies, (linkage, circuit), sizes);
         slides::add(&mut bodies, (linkage, circuit), sizes)?;
         let bodies = bodies.iter().filter(|body| body.is_part());
         let mut parts: Vec<Part> = bodies.map(|body| Part::from_body(body, linkage, sizes)).collect();

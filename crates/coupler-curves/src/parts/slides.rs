@@ -44,7 +44,7 @@ pub(super) fn add(
         }
     }
     bodies.iter_mut().for_each(Body::remove_points_of_slots);
-    let bridges: Vec<Body> = bodies.iter_mut().filter_map(|body| body.take_bridge(sizes)).collect();
+    let bridges: Vec<Body> = bodies.iter_mut().filter_map(|body| body.take_bridge(sizes.clearance())).collect();
     bodies.extend(bridges);
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Parameter, Side, SideTemplate, Template};
+use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Side, SideTemplate, Template};
 use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
 use crate::text::{format_exactly, is_same_number, round_to_six_digits};
 
@@ -239,15 +239,6 @@ impl Template {
         matches!(&self.joints[joint].kind, JointKindTemplate::Slot { offset, .. } if is_further && is_zero(offset))
     }
 
-    /// Whether joints are on one link.
-    fn are_on_a_link(&self, joints: &[usize]) -> bool {
-        self.structure().is_ok_and(|linkage| {
-            let ids: Option<Vec<_>> =
-                joints.iter().map(|&joint| linkage.find_joint(&self.joints[joint].name)).collect();
-            ids.is_some_and(|ids| linkage.links.iter().any(|link| ids.iter().all(|id| link.position(*id).is_some())))
-        })
-    }
-
     /// Whether a fixed joint is a pivot, as of [`Linkage::pivots`](crate::linkage::Linkage::pivots); otherwise it is only a point of reference.
     fn is_pivot(&self, joint: usize) -> bool {
         self.structure().is_ok_and(|linkage| {
@@ -273,36 +264,6 @@ fn equation(left: &str, right: MathText) -> MathText {
 /// The text with a dimension between words, unless the dimension is always 0.
 fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, after: &str) -> MathText {
     if is_zero(value) { text } else { text.with_words(before).with(value.to_dimension_text()).with_words(after) }
-}
-
-impl Template {
-    /// The side of a pinion's pivot on which it moves its rack along the line: as it turns counter-clockwise with the input, that is the
-    /// right of the line. On a link without the pivot the rack has no pitch line.
-    fn mesh_of_rack(&self, crank: usize, line: [usize; 2], radius: &CompiledExpression) -> String {
-        let [right, left] = [Side::Right, Side::Left].map(|side| self.side_as_drawn(side));
-        let is_of_length = |parameter: &Parameter| {
-            radius.name_or_number().as_deref() == Some(displayed_name(&parameter.name).as_str())
-                && parameter.min >= Some(0.0)
-        };
-        let sides = match radius.constant_value() {
-            Some(radius) if radius < 0.0 => left.to_owned(),
-            Some(_) => right.to_owned(),
-            None if self.parameters.iter().any(is_of_length) => right.to_owned(),
-            None => format!("{right}, if negative {left},"),
-        };
-        match &self.joints[crank].kind {
-            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. }
-                if !self.are_on_a_link(&[*pivot, line[0], line[1]]) =>
-            {
-                let pivot = displayed_name(&self.joints[*pivot].name);
-                format!(", without a pitch line, for {pivot} is not on that link")
-            }
-            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => {
-                format!(", {sides} of {}", displayed_name(&self.joints[*pivot].name))
-            }
-            _ => String::new(),
-        }
-    }
 }
 
 fn is_zero(value: &CompiledExpression) -> bool {
@@ -356,6 +317,34 @@ fn coordinate(coordinate: &Coordinate) -> MathText {
 #[cfg(test)]
 mod tests {
     use crate::catalogue;
+
+    #[test]
+    fn constants_have_decimals_beside_them_and_no_digits_that_no_one_writes() {
+        let linkage = r#"[[linkage]]
+id = "l"
+trace = ["M", "B"]
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = ["10 / 3", "59 / 19"] }
+A = { crank = "O", length = "5 / 2" }
+Y = { yoke = "A", line = ["O", "C"], offset = -35.36754082718272, angle = "200 / 3 deg" }
+B = { dyad = ["Y", "C"], lengths = ["20 * sqrt(5)", 44.721359549995796], side = "left" }
+M = { point = ["Y", "C"], along = 1.25, across = 14.142135623730951 }
+"#;
+        let template = crate::linkage_format::parse_templates(linkage).unwrap().remove(0);
+        for (joint, expected) in [
+            (1, "fixed pivot at (10 / 3 ≈ 3.33333, 59 / 19 ≈ 3.10526)"),
+            (2, "pin of the crank, OA = 5 / 2 = 2.5"),
+            (
+                3,
+                "yoke on a guide along OC, to its left: ≈−35.3675; A moves in its slot, its angle to the guide, to its left: ≈66.6667°",
+            ),
+            (4, "YB = 20 √5 ≈ 44.7214, CB ≈ 44.7214, left of YC"),
+            (5, "parallel to OC from Y: 1.25, to its left: ≈14.1421"),
+        ] {
+            assert_eq!(template.construction(joint).to_string(), expected);
+        }
+    }
 
     #[test]
     fn every_joint_has_a_construction_in_words() {

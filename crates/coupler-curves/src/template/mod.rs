@@ -10,6 +10,7 @@ mod load_text;
 mod order;
 mod parameter;
 mod parameter_kinds;
+mod rack_text;
 mod side;
 mod starting_family;
 

@@ -6,8 +6,8 @@ mod words;
 
 pub use interned::interned;
 pub use number::{
-    MAX_WRITTEN_DIGITS, count_digits, equation, exact_decimals, format_as_written, format_exactly, format_fixed,
-    format_for_building, format_in_full, is_same_number, round_to_six_digits,
+    exact_decimals, format_as_written, format_exactly, format_fixed, format_for_building, format_in_full,
+    format_in_full_if_short, is_same_number, round_to_six_digits,
 };
 pub use words::{is_control_or_directional, is_invisible, pluralize};
 

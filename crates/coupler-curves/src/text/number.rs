@@ -16,28 +16,29 @@ pub fn format_as_written(value: f64) -> String {
     }
 }
 
-/// A length as it is built: as people write it, and one that is a simple fraction with its decimal beside it.
-pub fn format_for_building(value: f64) -> String {
-    let in_full = format_in_full(value);
-    match in_full.contains('/') {
-        true => format!("{in_full} ≈ {}", format_exactly(round_to_six_digits(value))),
-        false => format_as_written(value),
-    }
+/// A number in full, if anyone writes it so: in a dozen digits, or as a fraction with a denominator up to 12.
+pub fn format_in_full_if_short(value: f64) -> Option<String> {
+    const MAX_SIMPLE_DENOMINATOR: u32 = 12;
+    let in_full = match format_in_full(value) {
+        text if text.contains('/') => fraction(value, MAX_SIMPLE_DENOMINATOR)?,
+        text => text,
+    };
+    (count_digits(&in_full) <= MAX_WRITTEN_DIGITS).then_some(in_full)
 }
 
-/// "a = 2", or "a ≈ 1.41421" of a number that is rounded.
-pub fn equation(left: &str, right: &str) -> String {
-    match right.strip_prefix('≈') {
-        Some(rounded) => format!("{left} ≈ {rounded}"),
-        None => format!("{left} = {right}"),
+/// A number in full, and its decimal beside a fraction, for a workshop.
+pub fn format_for_building(value: f64) -> String {
+    match format_in_full(value) {
+        text if text.contains('/') => format!("{text} ≈ {}", format_exactly(round_to_six_digits(value))),
+        text => text,
     }
 }
 
 /// The most digits that anyone writes.
-pub const MAX_WRITTEN_DIGITS: usize = 12;
+const MAX_WRITTEN_DIGITS: usize = 12;
 
 /// The number of digits of a number.
-pub fn count_digits(number: &str) -> usize {
+fn count_digits(number: &str) -> usize {
     number.chars().filter(char::is_ascii_digit).count()
 }
 
@@ -76,22 +77,24 @@ const MAX_DECIMALS: usize = 17;
 /// the double.
 pub fn format_in_full(value: f64) -> String {
     const MAX_SHORT: usize = 8;
+    const MAX_DENOMINATOR: u32 = 999;
     let typographic = |decimals: usize| format_fixed(value, decimals).replace('-', "−");
     let decimals = exact_decimals(value);
     match decimals {
         Some(decimals) if decimals <= MAX_SHORT => typographic(decimals),
-        _ => fraction(value).or_else(|| Some(typographic(decimals?))).unwrap_or_else(|| format_exactly(value)),
+        _ => fraction(value, MAX_DENOMINATOR)
+            .or_else(|| Some(typographic(decimals?)))
+            .unwrap_or_else(|| format_exactly(value)),
     }
 }
 
-/// A number as a fraction with a denominator up to 12, if it is one up to rounding: no one measures by other fractions.
-fn fraction(value: f64) -> Option<String> {
-    const MAX_DENOMINATOR: u32 = 12;
+/// A number as a fraction with a denominator up to a greatest one, if it is one up to rounding.
+fn fraction(value: f64, max_denominator: u32) -> Option<String> {
     let numerator = |denominator: u32| {
         let numerator = (value * f64::from(denominator)).round();
         is_same_number(numerator / f64::from(denominator), value).then_some(numerator)
     };
-    let (numerator, denominator) = (2..=MAX_DENOMINATOR).find_map(|d| Some((numerator(d)?, d)))?;
+    let (numerator, denominator) = (2..=max_denominator).find_map(|d| Some((numerator(d)?, d)))?;
     Some(format!("{} / {denominator}", format_exactly(numerator)))
 }
 
@@ -121,18 +124,19 @@ mod tests {
     }
 
     #[test]
-    fn numbers_to_build_by_are_decimals_beside_simple_fractions() {
-        for (value, text) in [
-            (2.5, "2.5"),
-            (10.0 / 3.0, "10 / 3 ≈ 3.33333"),
-            (59.0 / 19.0, "≈3.10526"),
-            (-35.367_540_827_182_72, "≈−35.3675"),
-            (0.1 + 0.2, "0.3"),
-            (1.234_567_89, "1.23456789"),
+    fn numbers_that_no_one_writes_are_rounded_and_fractions_to_build_by_have_decimals() {
+        for (value, short, to_build_by, written) in [
+            (2.5, Some("2.5"), "2.5", "2.5"),
+            (10.0 / 3.0, Some("10 / 3"), "10 / 3 ≈ 3.33333", "≈3.33333"),
+            (59.0 / 19.0, None, "59 / 19 ≈ 3.10526", "≈3.10526"),
+            (-35.367_540_827_182_72, None, "−35.36754082718272", "≈−35.3675"),
+            (0.1 + 0.2, Some("0.3"), "0.3", "0.3"),
+            (1.234_567_89, Some("1.23456789"), "1.23456789", "1.23456789"),
         ] {
-            assert_eq!(format_for_building(value), text);
+            assert_eq!(format_in_full_if_short(value).as_deref(), short);
+            assert_eq!(format_for_building(value), to_build_by);
+            assert_eq!(format_as_written(value), written);
         }
-        assert_eq!(equation("AB", &format_as_written(2.0_f64.sqrt())), "AB ≈ 1.41421");
     }
 
     #[test]

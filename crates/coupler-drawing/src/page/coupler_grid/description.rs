@@ -15,7 +15,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, JointKind, Linkage, OutputLink};
 use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
-use coupler_curves::text::{equation, format_for_building};
+use coupler_curves::text::format_for_building;
 
 /// The description of the linkage of a page: lines, and the lines of its key, if it has one.
 pub(super) struct Description {
@@ -107,7 +107,7 @@ pub(super) fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String>
         let label = labels.iter().find(|label| is_same(label.joints, joints)).map(|label| label.text.as_str());
         let is_named = label.is_some_and(|label| label.parse::<f64>().is_err());
         let length = match label.filter(|_| is_named) {
-            Some(label) => equation(&displayed_name(label), &length),
+            Some(label) => format!("{} = {length}", displayed_name(label)),
             None => length,
         };
         let is_output = output.is_some_and(|output| is_same(joints, output));
