@@ -117,8 +117,7 @@ pub(super) fn finding_charts(
             let (label, varying) = match varying[..] {
                 [] => {
                     let cell = planned.family.cell(cell);
-                    let [caption, _] = captions.of_cell(&cell, &[]);
-                    (caption, captions.varying(&cell))
+                    (captions.of_unsolved_cell(&cell), captions.varying(&cell))
                 }
                 [axis] => (label(axis, grid.index(cell, axis)), Vec::new()),
                 _ => Default::default(),

@@ -61,13 +61,14 @@ impl DirectionMarks {
 
 /// The line of input 0 and the arc in the direction of increasing input.
 fn input_marks(mechanism: &PosedMechanism, least_radius: f64) -> Option<DirectionMarks> {
-    /// The radius of the arc relative to the crank, and the length of the line relative to the radius.
+    /// The radius of the arc relative to the crank, but at most in least radii, and the length of the line relative to the radius.
     const RADIUS: f64 = 0.5;
+    const MOST: f64 = 5.0;
     const LINE: f64 = 1.3;
     const ARC_DEG: u32 = 66;
     const STEP_DEG: usize = 3;
     let [pivot, _] = mechanism.linkage.crank()?;
-    let radius = (RADIUS * mechanism.linkage.crank_length()?).max(least_radius);
+    let radius = (RADIUS * mechanism.linkage.crank_length()?).clamp(least_radius, MOST * least_radius);
     let (zero, turn) = mechanism.input_axes()?;
     let centre = mechanism.pose[pivot];
     let at = |deg: u32| {

@@ -17,7 +17,7 @@ use super::theme::Theme;
 use super::tolerance_band;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item};
+use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::Circuit;
@@ -233,6 +233,7 @@ impl<'a> Figure<'a> {
         let limits = self.limit_poses();
         for (curve, path) in curves.iter().zip(paths) {
             let stroke = theme.curve_stroke(self.style_index(curve));
+            let stroke = if self.is_finer(curve) { finer(stroke) } else { stroke };
             let ink = stroke.color;
             let MeasuredCurve { trace, circuit, joint, .. } = curve;
             let dot = |pose: &Vec<Point>| Circle {
@@ -360,6 +361,11 @@ impl<'a> Figure<'a> {
         if one_trace { curve.circuit - 1 } else { curve.trace - 1 }
     }
 
+    /// Whether a curve is finer than others, as it is on another circuit than the linkage, and in the ink of its point.
+    fn is_finer(&self, curve: &MeasuredCurve) -> bool {
+        self.solved_cell.linkage.traced.len() > 1 && curve.circuit != self.solved_cell.curves[0].circuit
+    }
+
     fn curve_ink(&self, curve: &MeasuredCurve, theme: &Theme) -> Color {
         theme.curve_ink(self.style_index(curve))
     }
@@ -452,6 +458,9 @@ impl<'a> Figure<'a> {
             };
             add(Mark::Dashes(self.curve_ink(first, theme)), &what);
         }
+        if solved.curves.iter().any(|curve| self.is_finer(curve)) {
+            add(Mark::Line(finer(theme.stroke(ink, theme.curve_width))), "finer: other circuits");
+        }
         if solved.motion.circuits.iter().any(|circuit| !circuit.is_full_turn()) {
             add(Mark::Limit(ink), "limit of the input");
         }
@@ -468,6 +477,12 @@ impl<'a> Figure<'a> {
         symbols.extend(symbols::of_body(&self.panel.body, theme));
         symbols
     }
+}
+
+/// The stroke of curves that are finer than others.
+fn finer(stroke: Stroke) -> Stroke {
+    const PART: f64 = 0.5;
+    Stroke { width: PART * stroke.width, ..stroke }
 }
 
 fn draw_linkage(area: &impl Area, items: Vec<Item>) {

@@ -19,6 +19,11 @@ pub(super) struct Beside {
 }
 
 impl Beside {
+    /// The most of a page that the key takes.
+    fn most_of_key(self) -> f64 {
+        PARTS[if self.grid == [1, 1] { 2 } else { 1 }]
+    }
+
     /// Whether all have the least size in contents of a size.
     fn fits(self, size: Vector, is_small: bool, theme: &Theme) -> bool {
         let em = theme.for_panel_size(Vector::zeros()).caption_size;
@@ -27,8 +32,9 @@ impl Beside {
     }
 }
 
-/// The part of a page that its key takes, and the most that it takes where the panels are large enough.
-const PARTS: [f64; 2] = [0.36, 0.56];
+/// The part of a page that its key takes, the most that it takes where the panels are large enough, and the most beside a single one, whose
+/// linkage the key shows once more.
+const PARTS: [f64; 3] = [0.36, 0.56, 0.68];
 
 /// How a key takes its part of the contents of a page.
 #[derive(Clone, Copy)]
@@ -57,7 +63,7 @@ impl Division {
         let larger = if is_wide {
             [2.0, 3.0].map(|columns| columns * usual + theme.margin).to_vec()
         } else {
-            vec![strip.min(PARTS[1] * whole)]
+            vec![strip.min(beside.most_of_key() * whole)]
         };
         let larger = larger.into_iter().filter(|needed| *needed > division.needed);
         let larger = larger.map(|needed| Division { needed, is_small: true, ..division });
@@ -84,7 +90,8 @@ impl Division {
     }
 
     fn has_room(&self, contents: Vector, beside: Beside, theme: &Theme) -> bool {
-        self.needed <= PARTS[1] * self.whole && beside.fits(self.left(contents, theme), self.is_small, theme)
+        self.needed <= beside.most_of_key() * self.whole
+            && beside.fits(self.left(contents, theme), self.is_small, theme)
     }
 }
 
@@ -131,5 +138,6 @@ pub(super) fn left_out_note(contents: Vector, beside: Beside, key: &Key, options
     };
     let paper = own.larger().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
     let paper = paper.map_or("larger paper".to_owned(), |size| format!("paper of {size}"));
-    format!("the key is left out: it needs {paper} or fewer figures")
+    let fewer = if beside.grid == [1, 1] { "" } else { " or fewer figures" };
+    format!("the key is left out: it needs {paper}{fewer}")
 }

@@ -279,11 +279,17 @@ pub(super) fn draw_linkage(
     let frame = rect.inset(1.6 * letter);
     let named = pins(mechanism, circuit);
     let at_points = named.iter().map(|pin| mechanism.pose[pin[0]]);
-    let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
+    let bounds = mechanism.bounds().union(Bounds::from_points(at_points));
+    let least_radius = |plot: &Plot| 4.0 * theme.joint_radius / plot.page_from_plane.scale();
+    let directions = |plot: &Plot| DirectionMarks::new(mechanism, circuit, least_radius(plot));
+    let plot = Plot::whole(frame).fitted_to(bounds);
+    // Where its arrows would be outside, the linkage is smaller.
+    let with_arrows = bounds.union(Bounds::from_points(directions(&plot).points()));
+    let is_inside = [with_arrows.min, with_arrows.max].iter().all(|p| rect.contains(&plot.page_from_plane.apply(*p)));
+    let plot = if is_inside { plot } else { plot.fitted_to(with_arrows) };
     let underlay = mechanism.underlay_items(&plot, theme);
     let links = mechanism.linkage_items(&plot, theme, ink);
-    let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale();
-    let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(plot.page_from_plane);
+    let directions = directions(&plot).map(plot.page_from_plane);
     let mut marks = directions.items(theme);
     let dot = |&joint: &JointId| Circle {
         centre: plot.page_from_plane.apply(mechanism.pose[joint]),
