@@ -100,7 +100,10 @@ fn describe_straight(solved: &SolvedCell, unit: &str) -> String {
             .unwrap_or_default();
         let whose = match solved.curves.len() {
             1 => String::new(),
-            count => format!(" (trace {}, circuit {}, the longest of {count} curves)", curve.trace, curve.circuit),
+            count => format!(
+                " (trace {}, circuit {}, the longest for the size of its curve among {count})",
+                curve.trace, curve.circuit
+            ),
         };
         Some(format!(
             "{length} long, {share} % of the curve's greatest extent, within {deviation} of its line, from \

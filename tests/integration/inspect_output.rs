@@ -28,7 +28,7 @@ fn the_text_begins_with_class_limits_transmission_angle_and_straight_portion() {
     assert!(text.contains("\nlimits of the input: none, it turns fully\n"), "{text}");
     // Of several curves, that with the longest portion for its size is named.
     let text = inspect(&["hrones-nelson"]);
-    assert!(text.contains(" (trace 2, circuit 1, the longest of 10 curves)\n"), "{text}");
+    assert!(text.contains(" (trace 2, circuit 1, the longest for the size of its curve among 10)\n"), "{text}");
     // An actuator has lengths, and its point moves on a circle.
     let text = inspect(&["linear-actuator"]);
     assert!(

@@ -85,7 +85,7 @@ fn parts_of_a_finding_chart_say_their_ranges() {
             .collect()
     };
     let grid = "linkage = \"evans\"\npanels = [3, 2]\nlet = { a = \"(1 + p)^1.5 / 2\" }\n";
-    let of_values = titles(&format!("{grid}grid = {{ p = {{ from = 2, to = 6, count = 250 }} }}\n"));
+    let of_values = titles(&format!("{grid}grid = {{ p = {{ from = 2, to = 6, count = 201 }} }}\n"));
     assert!(of_values.len() > 1 && of_values[0].starts_with("p = 2 to "), "{of_values:?}");
     let cases: String = (0..81).map(|k| format!("{{ p = {} }}, ", 2.0 + 0.05 * f64::from(k))).collect();
     let of_cases = titles(&format!("{grid}cases = [{cases}]\n"));

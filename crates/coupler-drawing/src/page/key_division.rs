@@ -132,12 +132,15 @@ fn strip_height(width: f64, key: &Key, theme: &Theme) -> f64 {
 pub(super) fn left_out_note(contents: Vector, beside: Beside, key: &Key, options: &Options) -> String {
     let own = options.paper;
     let taken = heading::contents_size(own, &options.theme.for_paper(own)) - contents;
-    let has_room = |paper: &Paper| {
+    let is_enough = |paper: &Paper, beside: Beside| {
         let theme = &options.theme.for_paper(*paper);
         has_room(heading::contents_size(*paper, theme) - taken, beside, Some(key), theme)
     };
-    let paper = own.larger().find(has_room).map(|paper| format!("{} × {} mm", paper.width, paper.height));
+    let paper = own
+        .larger()
+        .find(|paper| is_enough(paper, beside))
+        .map(|paper| format!("{} × {} mm", paper.width, paper.height));
     let paper = paper.map_or("larger paper".to_owned(), |size| format!("paper of {size}"));
-    let fewer = if beside.grid == [1, 1] { "" } else { " or fewer figures" };
+    let fewer = if is_enough(&own, Beside { grid: [1, 1], ..beside }) { " or fewer figures" } else { "" };
     format!("the key is left out: it needs {paper}{fewer}")
 }

@@ -157,15 +157,17 @@ fn transmission_text(least: f64, most: f64) -> String {
 }
 
 /// The least transmission angle of a linkage that is no four-bar, at any of its joints, on the circuit on which it is drawn, and on the others where
-/// it is less; `None` where no joint has one that changes.
+/// it is another; `None` where no joint has one that changes.
 fn least_transmission_text(solved: &SolvedCell, first: &MeasuredCurve) -> Option<String> {
     /// What is printed as 0 or 90 with one decimal.
     const ROUNDING: f64 = 0.05;
     let own = first.measure(Measure::MU_WORST).filter(|own| *own < 90.0 - ROUNDING)?;
-    let of_others = solved.curves.iter().filter(|curve| curve.circuit != first.circuit);
-    let of_others = of_others.filter_map(|curve| curve.measure(Measure::MU_WORST)).fold(own, f64::min);
+    let others = solved.curves.iter().filter(|curve| curve.circuit != first.circuit);
+    let others = others.filter_map(|curve| curve.measure(Measure::MU_WORST)).reduce(f64::min);
     let least = |value: f64| if value < ROUNDING { "0°".to_owned() } else { format!("{value:.1}°") };
-    let others = if own - of_others > ROUNDING { format!(", elsewhere {}", least(of_others)) } else { String::new() };
+    let others = others.filter(|other| (other - own).abs() > ROUNDING);
+    let others =
+        others.map_or(String::new(), |other| format!(" (circuit {}), elsewhere {}", first.circuit, least(other)));
     Some(format!("least μ {}{others}", least(own)))
 }
 

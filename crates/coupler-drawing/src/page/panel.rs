@@ -88,7 +88,8 @@ impl<'a> Panel<'a> {
         let dimensions: Vec<String> = dimensions.filter(|part| !part.is_empty()).collect();
         let parts = [dimensions.join(", "), self.note.clone()].into_iter().chain(class).chain(self.facts.clone());
         let parts: Vec<String> = parts.chain(error).filter(|part| !part.is_empty()).collect();
-        format!("{title}, no. {}: {}", solved.cell.number, parts.join("; "))
+        let which = format!("{title}, no. {}", solved.cell.number);
+        if parts.is_empty() { which } else { format!("{which}: {}", parts.join("; ")) }
     }
 
     /// The panel with its linkage in another pose.

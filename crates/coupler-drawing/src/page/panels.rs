@@ -30,7 +30,12 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     let beside = beside_key(page.layout.grid());
     // Whether there is room for the key is decided for all pages of a family alike, whatever symbols they have.
     let usual = contents(&usual_symbols(page.key, theme)).size;
-    let has_key = page.key.is_some_and(|key| key_division::has_room(usual, beside, Some(key), theme));
+    let has_key = page.key.is_some_and(|key| {
+        let usual = Rect { corner: Point::origin(), size: usual };
+        // A specimen is to show a figure, and a key only if it is whole.
+        let is_whole = || key_drawing::has_all_lines(key_division::divide(usual, beside, key, theme).1, key, theme);
+        key_division::has_room(usual.size, beside, Some(key), theme) && (!options.is_specimen || is_whole())
+    });
     if let (Some(key), false, false) = (page.key, has_key, symbols.is_empty() || options.is_specimen) {
         let meaning = key_division::left_out_note(usual, beside, key, options);
         symbols.push(Symbol { mark: Mark::Letter("…"), meaning });
@@ -302,14 +307,22 @@ fn beside_key(grid: [usize; 2]) -> Beside {
 pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize, heading: &Heading, key: &Key) -> [usize; 2] {
     const MOST: usize = 15;
     const ASPECT_RATIO: f64 = 1.0;
-    let beside = key_division::beside(contents_size(paper, theme), beside_key([1, 1]), theme);
-    let most_in = max_in(beside, LEGIBLE_PANEL, theme);
-    let grid = |most: usize| balanced_grid(beside, most_in, count.min(most), ASPECT_RATIO);
     let page = Vector::new(paper.width, paper.height);
     let (_, top) = heading.lines_under_title(page, theme);
-    let contents = contents(page, heading, (top, &usual_symbols(Some(key), theme)), theme);
-    let has_key = |grid: &[usize; 2]| key_division::has_room(contents.size, beside_key(*grid), Some(key), theme);
-    (1..=MOST).rev().map(grid).find(has_key).unwrap_or_else(|| grid(MOST))
+    let whole = contents(page, heading, (top, &usual_symbols(Some(key), theme)), theme);
+    let has_room = |grid: &[usize; 2]| key_division::has_room(whole.size, beside_key(*grid), Some(key), theme);
+    let has_all_lines = |grid: &[usize; 2]| {
+        let (_, rect) = key_division::divide(whole, beside_key(*grid), key, theme);
+        has_room(grid) && key_drawing::has_all_lines(rect, key, theme)
+    };
+    let beside = match has_room(&[1, 1]) {
+        true => key_division::beside(contents_size(paper, theme), beside_key([1, 1]), theme),
+        false => whole.size,
+    };
+    let most_in = max_in(beside.inf(&whole.size), LEGIBLE_PANEL, theme);
+    let grid = |most: usize| balanced_grid(beside, most_in, count.min(most), ASPECT_RATIO);
+    let grids = || (1..=MOST).rev().map(grid);
+    grids().find(has_all_lines).or_else(|| grids().find(has_room)).unwrap_or_else(|| grid(MOST))
 }
 
 /// Draws a message in place of a figure: the cell is not assembled, and the reason.

@@ -22,22 +22,22 @@ pub struct Tab {
 
 impl Tab {
     /// What may be written on the mark, the longest first: the number with the whole words that fit, or else the number alone; without a number,
-    /// the label, and then its value alone.
+    /// the words that fit, or of a value with its name the value alone.
     pub(super) fn labels(&self) -> Vec<String> {
         /// Words that do not end a label.
         const OPEN: [&str; 13] =
             ["a", "an", "and", "by", "double-", "for", "from", "in", "of", "on", "the", "to", "with"];
-        let Some(number) = self.number else {
-            let value = self.label.split_once(" = ").map(|(_, value)| value.to_owned());
-            return [self.label.clone()].into_iter().chain(value).collect();
-        };
+        if let (None, Some((_, value))) = (self.number, self.label.split_once(" = ")) {
+            return vec![self.label.clone(), value.to_owned()];
+        }
+        let number = self.number.map(|number| number.to_string()).unwrap_or_default();
         let words: Vec<&str> = self.label.split(' ').collect();
         let is_closed = |count: &usize| words.get(count.wrapping_sub(1)).is_none_or(|word| !OPEN.contains(word));
         let label = |count: usize| {
             let said = words[..count].join(" ");
             format!("{number} {}", said.trim_end_matches([',', ':', ';'])).trim().to_owned()
         };
-        (0..=words.len()).rev().filter(is_closed).map(label).collect()
+        (0..=words.len()).rev().filter(is_closed).map(label).filter(|label| !label.is_empty()).collect()
     }
 }
 
@@ -131,4 +131,18 @@ pub(super) fn draw_tabs(
     }
     drop(root);
     scene.links.extend(links);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_have_the_words_that_fit() {
+        let labels =
+            |number: Option<usize>, label: &str| Tab { number, label: label.to_owned(), first_page: 1 }.labels();
+        assert_eq!(labels(Some(2), "good, with a view"), ["2 good, with a view", "2 good", "2"]);
+        assert_eq!(labels(None, "good, with a view"), ["good, with a view", "good"]);
+        assert_eq!(labels(None, "A = 2.5"), ["A = 2.5", "2.5"]);
+    }
 }

@@ -128,7 +128,8 @@ fn draw_entry(root: &impl Area, frame: Rect, rank: usize, entry: &ListEntry, atl
         size: Vector::new(DRAWING_PART * frame.size.x - 1.6 * em, frame.size.y - 2.0 * em),
     };
     let shown = [entry.caption.as_str(), &entry.curve].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
-    root.grouped(Group::figure("entry", format!("Curve of {}", shown.join(", "))), || {
+    let what = if shown.is_empty() { reference(entry.page, entry.figure) } else { shown.join(", ") };
+    root.grouped(Group::figure("entry", format!("Curve of {what}")), || {
         if let Some(miniature) = &entry.drawing {
             miniature.draw(root, drawing, None, theme);
         }

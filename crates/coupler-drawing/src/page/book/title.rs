@@ -2,7 +2,7 @@
 
 use super::super::area::{self, Area};
 use super::super::arrangement::Arrangement;
-use super::super::element::Drawing;
+use super::super::element::{Drawing, TextLine};
 use super::super::figure::Figure;
 use super::super::heading;
 use super::super::rect::Rect;
@@ -31,7 +31,10 @@ pub(super) fn compose(
     let centred = |text: &str, y: f64, size: f64, color: Color| {
         root.record(theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
     };
-    let lines = family_lines(atlas);
+    let family_line = |text: &str| {
+        theme.text_line(text, Point::origin(), Anchor::Middle, 1.1 * theme.source_size, theme.ink).fit_or_wrap(width)
+    };
+    let lines: Vec<TextLine> = family_lines(atlas).iter().flat_map(|text| family_line(text)).collect();
     let step = 1.7 * theme.source_size;
     let foot = page.y - theme.border - 2.2 * theme.margin;
     let first = foot - 1.6 * theme.title_size - step * lines.len() as f64;
@@ -49,8 +52,8 @@ pub(super) fn compose(
         y += 1.4 * theme.title_size;
         centred(&name, y, 1.3 * theme.source_size, theme.grey);
     }
-    for (line, k) in lines.iter().zip(1..) {
-        centred(line, first + step * f64::from(k), 1.1 * theme.source_size, theme.ink);
+    for (line, k) in lines.into_iter().zip(1..) {
+        root.record(line.moved_to(Point::new(page.x / 2.0, first + step * f64::from(k))));
     }
     centred(atlas.program, foot, theme.source_size, theme.grey);
     if let Some(frontispiece) = frontispiece {

@@ -7,6 +7,11 @@ use super::super::key::PinMarks;
 use super::super::key_drawing::{self, needs_marks};
 use super::super::rect::Rect;
 use super::super::theme::Theme;
+use crate::scene::Anchor;
+use coupler_curves::geometry::Vector;
+
+/// What is said under the assembly, which is as large as it fits, since the scale of the title block is that of the parts.
+const NOT_TO_SCALE: &str = "assembly, not to scale";
 
 /// The assembly of a page.
 pub(super) struct Assembly<'a> {
@@ -24,6 +29,12 @@ impl Assembly<'_> {
 
     pub fn draw(&self, root: &impl Area, rect: Rect, theme: &Theme) {
         if let (Some(mechanism), Some(key)) = (self.figure.mechanisms.first(), self.key) {
+            let (em, size) = (theme.note_size, rect.size);
+            let foot = rect.corner + Vector::new(0.5 * size.x, size.y - 0.4 * em);
+            root.record(
+                theme.text_line(NOT_TO_SCALE, foot, Anchor::Middle, em, theme.text_ink(theme.grey)).fit_width(size.x),
+            );
+            let rect = Rect { size: size - Vector::new(0.0, 1.4 * em), ..rect };
             let marks = if needs_marks(key, rect.size.x, theme) { PinMarks::Numbers } else { PinMarks::Names };
             let key = Key { marks, ..key.clone() };
             let ink = |joint| self.figure.joint_ink(joint, theme);

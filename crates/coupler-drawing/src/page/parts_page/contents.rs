@@ -16,7 +16,7 @@ use super::part_view::Views;
 use super::sheet::{Fitting, Sheet};
 use super::table::Table;
 use super::title_block::TitleBlock;
-use crate::scene::Anchor;
+use crate::scene::{Anchor, Group as SceneGroup};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::parts::{Parts, PartsError};
 
@@ -48,9 +48,12 @@ impl Contents<'_> {
                 if fitting.views {
                     let [scale, most] = scales(self.page, &views, sheet.views);
                     (stated, greatest) = (Some(scale), most);
-                    for items in packing::layout(&views, scale, sheet.views).unwrap_or_default() {
-                        root.record(Drawing { class: "part", title: String::new(), items });
-                    }
+                    let views = packing::layout(&views, scale, sheet.views).unwrap_or_default();
+                    root.grouped(SceneGroup::figure("parts", self.description()), || {
+                        for items in views {
+                            root.record(Drawing { class: "part", title: String::new(), items });
+                        }
+                    });
                 } else {
                     let paper = self.needed_paper();
                     let message = format!("the views of the parts do not fit this page: they need {paper}");
@@ -65,6 +68,14 @@ impl Contents<'_> {
         }
         self.title_block(sheet.is_title_short).draw(root, (sheet.title, stated), theme);
         greatest
+    }
+
+    /// The linkage, and the names of its parts, in words.
+    fn description(&self) -> String {
+        let heading = &self.page.heading;
+        let names: Vec<&str> = self.groups.iter().flat_map(|group| group.names.iter().copied()).collect();
+        let linkage = self.panel.description(heading.family_title, heading.dimensions);
+        format!("Drawing of the parts {}. {linkage}", names.join(", "))
     }
 
     /// Draws the heading, and returns what it leaves.

@@ -258,6 +258,8 @@ mod tests {
             "2.008 בא · 1.04 דג, crank = 1, offset = 0.25"
         );
         assert_eq!(visual("crank = 1, אב 2, 3"), "crank = 1, 3 ,2 בא");
+        // A sentence is not torn at its commas.
+        assert_eq!(visual("אב, see page 5, גד"), "דג ,see page 5 ,בא");
         // What is all in one direction is read in it.
         assert_eq!(visual("אב · גד, 3"), "3 ,דג · בא");
         assert_eq!(reading_parts("p = 2, q = 3 · r"), [0.."p = 2, q = 3 · r".len()]);

@@ -80,7 +80,7 @@ pub fn has_right_to_left(text: &str) -> bool {
 }
 
 /// The parts of a text that are read one after the other from left to right, with the separators between them: one is the whole text, unless
-/// pieces between dots or commas begin in different directions. Each has the direction of its first letter.
+/// pieces between dots, or values after their names between commas, begin in different directions. Each has the direction of its first letter.
 pub fn reading_parts(text: &str) -> Vec<Range<usize>> {
     const SEPARATORS: [&str; 2] = [" · ", ", "];
     let is_right_to_left = |range: &Range<usize>| {
@@ -98,8 +98,11 @@ pub fn reading_parts(text: &str) -> Vec<Range<usize>> {
     let mut last = parts.first().and_then(is_right_to_left);
     for (separator, piece) in separators.iter().zip(pieces) {
         let own = is_right_to_left(&piece);
-        // A piece after a comma is read with the one before it, unless its direction is another.
-        let is_read_on = text[separator.clone()] == *", " && (own.is_none() || last.is_none() || own == last);
+        // A piece after a comma is read with the one before it, unless its direction is another and one of them is a value after its name.
+        let is_value = |range: &Range<usize>| text[range.clone()].contains(['=', '≈']);
+        let is_other = own.zip(last).is_some_and(|(own, last)| own != last);
+        let is_value = is_value(&piece) || parts.last().is_some_and(is_value);
+        let is_read_on = text[separator.clone()] == *", " && !(is_other && is_value);
         match parts.last_mut().filter(|_| is_read_on) {
             Some(part) => (part.end, last) = (piece.end, last.or(own)),
             None => {

@@ -42,10 +42,36 @@ pub(super) fn page_count(how: &HowToRead, find: &[String], options: &Options) ->
     1 + text::page_count(how, &shown_parts(how), find, options, theme)
 }
 
-/// The parts of the plate that are explained, with the places of their numbers.
+/// The parts of the plate that are explained, with the places that their numbers point to.
 fn shown_parts(how: &HowToRead) -> Vec<(&'static Part, Point)> {
     let parts = PARTS.iter().filter(|part| part.layouts[layout_index(how.layout)]);
-    parts.filter_map(|part| Some((part, part_anchor(part, &how.plate)?))).collect()
+    let places = parts.filter_map(|part| Some((part, part_places(part, &how.plate)?)));
+    let places: Vec<(&'static Part, Vec<Point>)> = places.collect();
+    let mut anchors: Vec<Point> = places.iter().filter_map(|(part, places)| furthest(places, part.side)).collect();
+    // A curve and its ticks are pointed to away from everything else: the traced point is on its curve as well.
+    for (k, (_, places)) in places.iter().enumerate().filter(|(_, (part, _))| part.is_long) {
+        let others = |p: &Point| {
+            (0..anchors.len())
+                .filter(|other| *other != k)
+                .map(|other| (anchors[other] - p).norm())
+                .fold(f64::INFINITY, f64::min)
+        };
+        let side = |turn: u32| {
+            let (cos, sin) = trig::cos_sin_deg(22.5 * f64::from(turn));
+            Vector::new(cos, sin)
+        };
+        let ends = (0..16).filter_map(|turn| furthest(places, side(turn)));
+        if let Some(clearest) = ends.max_by(|a, b| others(a).total_cmp(&others(b))) {
+            anchors[k] = clearest;
+        }
+    }
+    places.into_iter().map(|(part, _)| part).zip(anchors).collect()
+}
+
+/// The point that is furthest to a side.
+fn furthest(points: &[Point], side: Vector) -> Option<Point> {
+    let reach = |p: &Point| p.coords.dot(&side);
+    points.iter().copied().reduce(|a, b| if reach(&b) > reach(&a) { b } else { a })
 }
 
 fn layout_index(layout: Layout) -> usize {
@@ -56,19 +82,16 @@ fn layout_index(layout: Layout) -> usize {
     }
 }
 
-/// The place on the plate at which a part has its number: the point of its first group that is furthest to one side.
-fn part_anchor(part: &Part, plate: &Scene) -> Option<Point> {
-    let points = if part.class == LARGEST_TEXT {
+/// The points of the first group of a part on the plate.
+fn part_places(part: &Part, plate: &Scene) -> Option<Vec<Point>> {
+    if part.class == LARGEST_TEXT {
         let mut texts = Vec::new();
         collect_texts(&plate.items, &mut texts);
-        text_corners(texts.into_iter().reduce(|a, b| if b.size > a.size { b } else { a })?)
-    } else {
-        let mut found = Vec::new();
-        collect_groups(&plate.items, part.class, &mut found);
-        found.into_iter().map(group_points).find(|points| !points.is_empty())?
-    };
-    let reach = |p: &Point| p.coords.dot(&part.side);
-    points.into_iter().reduce(|a, b| if reach(&b) > reach(&a) { b } else { a })
+        return Some(text_corners(texts.into_iter().reduce(|a, b| if b.size > a.size { b } else { a })?));
+    }
+    let mut found = Vec::new();
+    collect_groups(&plate.items, part.class, &mut found);
+    found.into_iter().map(group_points).find(|points| !points.is_empty())
 }
 
 fn collect_groups<'s>(items: &'s [Item], class: &str, found: &mut Vec<&'s [Item]>) {
