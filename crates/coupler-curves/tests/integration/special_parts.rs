@@ -120,14 +120,13 @@ fn a_rack_is_as_long_as_its_pinion_rolls_on_it() {
         let bounds = rack.outline.bounds();
         assert!(line.ends.iter().all(|end| end.x > bounds.min.x && end.x < bounds.max.x));
     }
-    let joints = format!(
-        "O = {{ fixed = [0, 0] }}\nC = {{ fixed = [5, 1] }}\nA = {{ crank = \"O\", length = 1 }}\nB = {{ dyad = [\"A\", \"C\"], lengths = [4, 3], side = \"left\" }}\n\
-         R = {{ rack = \"A\", radius = 0.7, line = [\"A\", \"B\"], offset = -1.2 }}\n"
-    );
+    let joints = "O = { fixed = [0, 0] }\nC = { fixed = [5, 1] }\nA = { crank = \"O\", length = 1 }\n\
+         B = { dyad = [\"A\", \"C\"], lengths = [4, 3], side = \"left\" }\n\
+         R = { rack = \"A\", radius = 0.7, line = [\"A\", \"B\"], offset = -1.2 }\n";
     let input = "input = { from = \"-60 deg\", to = \"60 deg\" }";
-    let construction = template(&joints, "R", input).construction(4).to_string();
+    let construction = template(joints, "R", input).construction(4).to_string();
     assert!(construction.contains("without a pitch line, for O is not on that link"), "{construction}");
-    let (parts, ..) = built(&joints, "R", input);
+    let (parts, ..) = built(joints, "R", input);
     let rack = part(&parts, "rack R");
     assert!(rack.pitch_line.is_none() && rack.notes[0].starts_with("no pitch line"), "{:?}", rack.notes);
 }

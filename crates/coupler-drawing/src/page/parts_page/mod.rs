@@ -270,10 +270,12 @@ mod tests {
 
     /// The number of texts of the views, and those that a line passes.
     fn crossed_texts(scene: &Scene) -> (usize, Vec<String>) {
-        let parts = scene.items.iter().filter_map(|item| match item {
-            Item::Group(group) if group.class == "part" => Some(&group.items),
+        let of_class = |item: &Item, class: &str| match item {
+            Item::Group(group) if group.class == class => Some(group.items.clone()),
             _ => None,
-        });
+        };
+        let views = scene.items.iter().filter_map(|item| of_class(item, "parts")).flatten();
+        let parts: Vec<Vec<Item>> = views.filter_map(|item| of_class(&item, "part")).collect();
         let mut text_count = 0;
         let mut crossed = |items: &Vec<Item>| {
             let points = line_points(items);
@@ -285,7 +287,7 @@ mod tests {
             text_count += texts.clone().count();
             texts.filter(is_crossed).map(words).collect::<Vec<_>>()
         };
-        let crossed = parts.flat_map(&mut crossed).collect();
+        let crossed = parts.iter().flat_map(&mut crossed).collect();
         (text_count, crossed)
     }
 

@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(visual("אב, see page 5, גד"), "דג ,see page 5 ,בא");
         // What is all in one direction is read in it.
         assert_eq!(visual("אב · גד, 3"), "3 ,דג · בא");
-        assert_eq!(reading_parts("p = 2, q = 3 · r"), [0.."p = 2, q = 3 · r".len()]);
+        assert_eq!(reading_parts("p = 2, q = 3 · r").len(), 1);
     }
 
     #[test]
