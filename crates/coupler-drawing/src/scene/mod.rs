@@ -24,8 +24,8 @@ pub(crate) use font::{has_right_to_left, reading_parts};
 pub use text::{Anchor, MIN_TEXT_SIZE, Text, TextRun};
 
 #[cfg(feature = "pdf")]
-use coupler_curves::geometry::{Bounds, Vector};
-use coupler_curves::geometry::{Point, Spline};
+use coupler_curves::geometry::Bounds;
+use coupler_curves::geometry::{Point, Spline, Vector};
 
 /// A finished page, which can be rendered.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,7 +214,6 @@ impl Group {
     }
 }
 
-#[cfg(feature = "pdf")]
 impl Item {
     /// The shapes of the item without animation, from back to front.
     pub(crate) fn shapes(&self) -> Vec<Shape<'_>> {
@@ -278,7 +277,6 @@ impl Text {
     }
 
     /// The corners of the box of the text, after its rotation.
-    #[cfg(feature = "pdf")]
     pub(crate) fn corners(&self) -> [Point; 4] {
         let start = self.start() - self.position;
         let (width, size) = (self.width(), self.size);

@@ -43,7 +43,7 @@ pub fn draw_code(scene: &mut Scene, address: &str, options: &Options) {
     let Ok(code) = QrCode::encode_text(address, QrCodeEcc::Low) else { return };
     let theme = options.theme.for_paper(options.paper);
     let side = MODULE * (f64::from(code.size()) + 2.0 * QUIET);
-    let Some(corner) = FreeSpace::of_page(scene, theme.border).square(side) else { return };
+    let Some(corner) = FreeSpace::of_page(scene).square(side, theme.border) else { return };
     let size = Vector::repeat(side);
     let title = format!("QR code: {address}");
     let target = LinkTarget::Address(address.to_owned());

@@ -9,13 +9,11 @@ pub(super) struct FreeSpace {
     rows: usize,
     /// The number of squares with something in them that are above and to the left of each corner.
     sums: Vec<u32>,
-    /// The distance of what may be used from the edges.
-    border: f64,
 }
 
 impl FreeSpace {
-    /// The space inside the border of a page.
-    pub fn of_page(scene: &Scene, border: f64) -> FreeSpace {
+    /// The space of a page.
+    pub fn of_page(scene: &Scene) -> FreeSpace {
         let [columns, rows] = [scene.width, scene.height].map(|side| side.floor().max(0.0) as usize);
         let mut is_used = vec![false; columns * rows];
         let mut mark = |low: Point, high: Point| {
@@ -40,26 +38,25 @@ impl FreeSpace {
                     + u32::from(is_used[row * columns + column]);
             }
         }
-        FreeSpace { columns, rows, sums, border }
+        FreeSpace { columns, rows, sums }
     }
 
-    /// The upper left corner of a free square: the one nearest to an edge, and of those the uppermost and rightmost.
-    pub fn square(&self, side: f64) -> Option<Point> {
+    /// The upper left corner of a free square inside the border, at this distance from the edges: the one nearest to it, and of those the uppermost
+    /// and rightmost.
+    #[cfg(feature = "pdf")]
+    pub fn square(&self, side: f64, border: f64) -> Option<Point> {
         let count = side.ceil() as usize;
         // The border has a line of its own.
-        let first = self.border.ceil() as usize + 1;
+        let first = border.ceil() as usize + 1;
         let [last_column, last_row] = [self.columns, self.rows].map(|length| length.checked_sub(first + count));
         let (last_column, last_row) = (last_column?, last_row?);
         let places = (first..=last_row).flat_map(|row| (first..=last_column).rev().map(move |column| (row, column)));
         let from_edge = |&(row, column): &(usize, usize)| {
             (row - first).min(last_row - row).min(column - first).min(last_column - column)
         };
-        let (row, column) = places.filter(|place| self.is_free(*place, count)).min_by_key(from_edge)?;
+        let is_free = |&(row, column): &(usize, usize)| self.used([row, column], [row + count, column + count]) == 0;
+        let (row, column) = places.filter(is_free).min_by_key(from_edge)?;
         Some(Point::new(column as f64, row as f64))
-    }
-
-    fn is_free(&self, (row, column): (usize, usize), count: usize) -> bool {
-        self.used([row, column], [row + count, column + count]) == 0
     }
 
     /// The number of squares with something in them from a row and column up to others.

@@ -13,7 +13,6 @@ mod columns;
 mod contents;
 mod finding;
 mod folio;
-#[cfg(feature = "pdf")]
 mod free_space;
 mod how_to_read;
 mod index;

@@ -214,7 +214,7 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     let anchors: Vec<(Point, Vector)> = anchors.collect();
     let radius = 1.1 * theme.source_size;
     let edge = theme.border + 1.5 * radius;
-    let centres = number_places(&anchors, radius, edge, &FreeSpace::of_page(&scene, theme.border), page);
+    let centres = number_places(&anchors, radius, edge, &FreeSpace::of_page(&scene), page);
     let root = area::whole_page(&mut scene);
     let ink = theme.text_ink(theme.curve_ink(0));
     for (k, ((anchor, _), centre)) in anchors.into_iter().zip(centres).enumerate() {
@@ -308,7 +308,7 @@ mod tests {
         }
         let line = vec![Point::new(20.0, 60.0 - 2.2 * radius), Point::new(60.0, 60.0 - 2.2 * radius)];
         scene.items.push(Item::Path(Path::stroked(line, theme.stroke(theme.ink, 0.3))));
-        let space = FreeSpace::of_page(&scene, theme.border);
+        let space = FreeSpace::of_page(&scene);
         let page = Vector::new(scene.width, scene.height);
         let centres = number_places(&anchors, radius, 10.0, &space, page);
         for (k, (centre, (anchor, _))) in centres.iter().zip(anchors).enumerate() {
