@@ -3,7 +3,6 @@
 use std::cell::LazyCell;
 
 use crate::manifest::PlannedFamily;
-use coupler_curves::expression::Caption;
 use coupler_curves::family::{CaptionParameter, Cell};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{ChangedCell, SolvedCell, Solver};
@@ -30,9 +29,11 @@ impl<'a> Captions<'a> {
     }
 
     /// The caption of a cell that is not solved: its parameters, where measures are in that of the manifest.
+    #[cfg(feature = "pdf")]
     pub fn of_unsolved_cell(&self, cell: &Cell) -> String {
         let family = &self.planned.family;
-        let has_measures = |caption: &Caption| !family.measures_in_caption(caption).is_empty();
+        let has_measures =
+            |caption: &coupler_curves::expression::Caption| !family.measures_in_caption(caption).is_empty();
         if !family.captions[0].as_ref().is_some_and(has_measures) {
             let [caption, _] = self.of_cell(cell, &[]);
             return caption;
