@@ -46,8 +46,7 @@ function curveRow(family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
   const caption = one ? null : cellLabel(family, cell[curve], "linkage");
   const point = pointLabel(family, curve);
-  const hasCircuit = circuit[curve] > 1 || (one && !point);
-  const words = [caption, point, hasCircuit ? `circuit ${circuit[curve]}` : null];
+  const words = [caption, point, circuit[curve] > 1 || (one && !point) ? `circuit ${circuit[curve]}` : null];
   const over = { onpointerenter: () => onenter(curve), onpointerleave: onleave };
   return h(
     "a",
@@ -64,7 +63,8 @@ function curveRow(family, curve, { one, onenter, onleave }) {
 
 /** What pages call a curve by its traced point, if the linkage has several. @param {Family} family */
 export function pointLabel(family, /** @type {number} */ curve) {
-  return family.traces > 1 ? (family.paths[family.curves.trace[curve] - 1] ?? `point ${family.curves.trace[curve]}`) : "";
+  const trace = family.curves.trace[curve];
+  return family.traces > 1 ? (family.paths[trace - 1] ?? `point ${trace}`) : "";
 }
 
 /** The linkages that could not be assembled, each with the reason. @param {Family} family */
