@@ -56,6 +56,8 @@ fn stated_values(lines: &[String]) -> Vec<(String, f64)> {
         let mut sides = equation.split(" = ");
         let Some(name) = sides.next().and_then(|name| name.split(' ').next_back()) else { continue };
         for side in sides {
+            // A fraction may have its decimal beside it.
+            let side = side.split(" ≈ ").next().unwrap_or(side);
             let side = side.trim_end_matches(['°', ',']).replace('−', "-");
             let (numerator, denominator) = side.split_once(" / ").unwrap_or((&side, "1"));
             if let (Ok(numerator), Ok(denominator)) = (numerator.parse::<f64>(), denominator.parse::<f64>()) {

@@ -16,14 +16,12 @@ pub fn format_as_written(value: f64) -> String {
     }
 }
 
-/// A number in full, if anyone writes it so: in a dozen digits, or as a fraction with a denominator up to 12.
+/// A number in full, if anyone writes it so: in a dozen digits, or as a fraction, with its decimal beside it if the denominator is more than 12.
 pub fn format_in_full_if_short(value: f64) -> Option<String> {
     const MAX_SIMPLE_DENOMINATOR: u32 = 12;
-    let in_full = match format_in_full(value) {
-        text if text.contains('/') => fraction(value, MAX_SIMPLE_DENOMINATOR)?,
-        text => text,
-    };
-    (count_digits(&in_full) <= MAX_WRITTEN_DIGITS).then_some(in_full)
+    let in_full = Some(format_in_full(value)).filter(|text| count_digits(text) <= MAX_WRITTEN_DIGITS)?;
+    let is_simple = !in_full.contains('/') || fraction(value, MAX_SIMPLE_DENOMINATOR).is_some();
+    Some(if is_simple { in_full } else { format_for_building(value) })
 }
 
 /// A number in full, and its decimal beside a fraction, for a workshop.
@@ -128,7 +126,7 @@ mod tests {
         for (value, short, to_build_by, written) in [
             (2.5, Some("2.5"), "2.5", "2.5"),
             (10.0 / 3.0, Some("10 / 3"), "10 / 3 ≈ 3.33333", "≈3.33333"),
-            (59.0 / 19.0, None, "59 / 19 ≈ 3.10526", "≈3.10526"),
+            (59.0 / 19.0, Some("59 / 19 ≈ 3.10526"), "59 / 19 ≈ 3.10526", "≈3.10526"),
             (-35.367_540_827_182_72, None, "−35.36754082718272", "≈−35.3675"),
             (0.1 + 0.2, Some("0.3"), "0.3", "0.3"),
             (1.234_567_89, Some("1.23456789"), "1.23456789", "1.23456789"),
