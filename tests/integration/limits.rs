@@ -274,6 +274,11 @@ fn the_time_to_parse_texts_grows_with_their_length() {
     assert_time_grows_with_length("a title", 100_000, |count| {
         Manifest { title: "word ".repeat(count / 5), ..Manifest::default() }.text()
     });
+    for key in ["title", "source", "note"] {
+        assert_time_grows_with_length(key, 100_000, |count| {
+            Manifest { keys: format!("{key} = \"{}\"", "word ".repeat(count / 5)), ..Manifest::default() }.text()
+        });
+    }
     assert_time_grows_with_length("mistakes in one caption", 2000, |count| {
         Manifest { keys: format!("caption = \"{}\"", "{qq} ".repeat(count)), ..Manifest::default() }.text()
     });

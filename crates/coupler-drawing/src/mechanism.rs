@@ -6,7 +6,7 @@
 use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::motion::Circuit;
-use coupler_curves::parts::{Idler, RackMesh, idlers, pitch_circles, rack_mesh};
+use coupler_curves::parts::{Idler, idlers, pitch_circles, pitch_line_offset};
 
 /// The parts of a linkage on a circuit.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,7 +145,7 @@ fn find_guides(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<Guid
     };
     let Some((ends, along)) = guide() else { return Vec::new() };
     let pitch_line = || {
-        let RackMesh { offset, .. } = rack_mesh(linkage, circuit, joint).filter(|mesh| mesh.offset != 0.0)?;
+        let offset = pitch_line_offset(linkage, circuit, joint).filter(|offset| *offset != 0.0)?;
         let aside = left_normal(along.try_normalize(0.0)?) * offset;
         Some(ends.map(|end| end + aside))
     };

@@ -104,7 +104,7 @@ pub(super) fn finding_charts(
                 let drawn = placed.iter().filter_map(|(cell, _)| drawn.get(cell));
                 format_range("page", first.chain(drawn.flat_map(|(pages, _)| pages).map(|(_, page)| *page)))
             }
-            _ => format_range("figure", placed.iter().map(|(cell, _)| cell + 1)),
+            _ => format_range("figure", placed.iter().map(|(cell, _)| planned.family.cell(*cell).number)),
         };
         let sequence = (is_divided && varying.len() < 2).then(sequence);
         let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).chain(sequence).collect();

@@ -3,7 +3,7 @@
 mod asymmetry;
 mod axis_motion;
 mod budget;
-mod circuit_function;
+pub(crate) mod circuit_function;
 mod class;
 mod column;
 pub(crate) mod curve;

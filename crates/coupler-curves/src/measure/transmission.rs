@@ -1,6 +1,6 @@
 //! Transmission angles.
 
-use super::circuit_function::{Pose, Quantity};
+use super::circuit_function::{Pose, Quantity, SquaredDistance};
 use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::{Point, Vector, cross, trig};
 use crate::linkage::{FourBar, JointId, JointKind, Linkage, length_tolerance};
@@ -115,12 +115,12 @@ fn worst_angle_of_joint(curve: &TracedCurve, id: JointId, kind: JointKind) -> Op
         }
         JointKind::Slide { from, length, line, offset, .. } => {
             let handedness = curve.linkage.placement.handedness();
-            let range = range_of(curve, DistanceFromLine { from, line, offset, handedness })?;
+            let range = range_of(curve, &DistanceFromLine { from, line, offset, handedness })?;
             Some(acute_angle(range[0].abs().max(range[1].abs()), length))
         }
         JointKind::Slot { base, offset, .. } => Some(acute_angle(offset.abs(), distance_range(curve, base)?[0])),
         JointKind::Piston { base: [from, pivot], .. } => {
-            let [least, greatest] = range_of(curve, AngleAt([from, id, pivot]))?.map(trig::degrees);
+            let [least, greatest] = range_of(curve, &AngleAt([from, id, pivot]))?.map(trig::degrees);
             // The angle is 0 or 180 somewhere if a whole number of half turns is in its range.
             let above = |deg: f64| deg - 180.0 * (deg / 180.0).floor();
             let is_flat = greatest - least >= 180.0 - above(least);
@@ -140,32 +140,13 @@ fn acute_angle(share: f64, length: f64) -> f64 {
 }
 
 /// The least and the greatest value of a quantity over the circuit; `None` where it is undefined.
-fn range_of(curve: &TracedCurve, quantity: impl Quantity) -> Option<[f64; 2]> {
-    Some(curve.circuit_function(quantity)?.extremes().map(|extreme| extreme.value))
+fn range_of(curve: &TracedCurve, quantity: &dyn Quantity) -> Option<[f64; 2]> {
+    Some(curve.circuit_function(quantity)?.range())
 }
 
 /// The least and the greatest distance of two joints over the circuit.
 fn distance_range(curve: &TracedCurve, joints: [JointId; 2]) -> Option<[f64; 2]> {
-    Some(range_of(curve, SquaredDistance(joints))?.map(|squared| squared.max(0.0).sqrt()))
-}
-
-/// The square of the distance of two joints.
-struct SquaredDistance([JointId; 2]);
-
-impl Quantity for SquaredDistance {
-    fn joints(&self) -> Vec<JointId> {
-        self.0.to_vec()
-    }
-
-    fn value(&self, pose: &Pose) -> f64 {
-        let [from, to] = self.0;
-        (pose.at(to) - pose.at(from)).norm_squared()
-    }
-
-    fn sensitivity(&self, pose: &Pose) -> f64 {
-        let [from, to] = self.0;
-        4.0 * (pose.at(to) - pose.at(from)).norm()
-    }
+    Some(range_of(curve, &SquaredDistance(joints))?.map(|squared| squared.max(0.0).sqrt()))
 }
 
 /// The distance of a slider's line to the left of the joint at the other end of its link.

@@ -13,6 +13,20 @@ pub(super) enum Anchor {
 }
 
 impl Anchor {
+    /// The joint that the body is placed by.
+    pub fn origin(&self) -> JointId {
+        let (Anchor::Joints([(joint, _), _]) | Anchor::Line { joint: (joint, _), .. }) = *self;
+        joint
+    }
+
+    /// The joints on the line that the body turns with.
+    pub fn line(&self) -> [JointId; 2] {
+        match *self {
+            Anchor::Joints(joints) => joints.map(|(joint, _)| joint),
+            Anchor::Line { line, .. } => line,
+        }
+    }
+
     /// Where a body is in a pose.
     pub fn plane_from_body(&self, at: &impl Fn(JointId) -> Point) -> Similarity {
         let (joint, own, posed) = match *self {

@@ -19,6 +19,7 @@ mod pitch_line;
 mod racks;
 mod sizes;
 mod slides;
+mod travel;
 
 pub use actuator::Actuator;
 pub use error::PartsError;
@@ -26,7 +27,7 @@ pub use hole::{Hole, Slot};
 pub use outline::{Outline, Vertex};
 pub use part::Part;
 pub use pitch_circle::{Idler, idlers, pitch_circles};
-pub use pitch_line::{PitchLine, RackMesh, rack_mesh};
+pub use pitch_line::{PitchLine, pitch_line_offset};
 pub use sizes::{GivenSizes, Sizes};
 
 use crate::geometry::{Bounds, Point};

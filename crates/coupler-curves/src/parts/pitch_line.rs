@@ -13,33 +13,22 @@ pub struct PitchLine {
     pub radius: f64,
 }
 
-/// How a pinion meets a rack.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RackMesh {
-    /// How far the pitch line is to the left of the rack's joint, seen along the line on which it slides.
-    pub offset: f64,
-    /// The least and the greatest distance along the line from the joint to where the pinion meets the rack.
-    pub contact: [f64; 2],
-}
-
-/// How the pinion meets a joint that is a rack; `None` of others, and where no link has both the pinion's pivot and the line of the rack: they do not mesh.
-pub fn rack_mesh(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<RackMesh> {
+/// How far the pitch line of a joint that is a rack is to the left of the joint, seen along the line on which it slides. `None` of others, and where no link
+/// has both the pinion's pivot and the line of the rack: they do not mesh.
+pub fn pitch_line_offset(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<f64> {
     let JointKind::Rack { line: [p, q], radius, .. } = linkage.joints[joint].kind else { return None };
     let [pivot, _] = linkage.crank()?;
     linkage.links.iter().find(|link| [pivot, p, q].iter().all(|joint| link.position(*joint).is_some()))?;
     // Where the rack moves along its line as the pinion turns counter-clockwise, it is to the right of the pivot; the mirror image of a linkage turns
     // clockwise.
     let radius = radius * linkage.placement.handedness();
-    let place = |sample: usize| {
+    let offset = |sample: usize| {
         let [p, q, pivot, joint] = [p, q, pivot, joint].map(|joint| circuit.positions.point(joint, sample));
-        let along = (q - p).try_normalize(0.0)?;
-        let arm = pivot - joint;
-        Some((along.dot(&arm), left_normal(along).dot(&arm) - radius)).filter(|place| place.0.is_finite())
+        Some(left_normal((q - p).try_normalize(0.0)?).dot(&(pivot - joint)) - radius)
+            .filter(|offset| offset.is_finite())
     };
-    let places: Vec<(f64, f64)> = (0..circuit.len()).filter_map(place).collect();
-    let contact = [f64::min, f64::max].map(|choose| places.iter().map(|place| place.0).reduce(choose));
     /// The part of the radius up to which a joint is on the pitch line: what rounding leaves of an offset like it.
     const ROUNDING: f64 = 1e-9;
-    let offset = places.first().map(|place| place.1).filter(|offset| offset.abs() > ROUNDING * radius.abs());
-    Some(RackMesh { offset: offset.unwrap_or(0.0), contact: [contact[0]?, contact[1]?] })
+    let offset = (0..circuit.len()).find_map(offset)?;
+    Some(if offset.abs() > ROUNDING * radius.abs() { offset } else { 0.0 })
 }

@@ -4,6 +4,7 @@ use super::body::{Block, Body};
 use super::error::PartsError;
 use super::hole::{Hole, Slot, join_names};
 use super::sizes::Sizes;
+use super::travel::travel;
 use crate::geometry::{Point, Vector, cross, distance_to_segment, left_normal};
 use crate::linkage::{JointId, JointKind, Linkage};
 use crate::motion::Circuit;
@@ -27,7 +28,7 @@ pub(super) fn add(
 ) -> Result<(), PartsError> {
     for slide in find_slides(bodies, linkage)? {
         let Slide { pin, carrier, direction, is_guide } = slide;
-        let Some(way) = travel(&bodies[carrier], (pin, direction), circuit) else { continue };
+        let Some(way) = travel(&bodies[carrier], (pin, direction), (linkage, circuit)) else { continue };
         let block = bodies.iter().position(|body| is_guide && body.is_block_of(pin));
         let sides = match block {
             Some(block) => {
@@ -110,19 +111,6 @@ fn find_line(bodies: &[Body], linkage: &Linkage, line: [JointId; 2]) -> Option<(
         })
     };
     bodies.iter().enumerate().find_map(on_body).or_else(slot)
-}
-
-/// The ends of the way of a joint on a body, in a direction of it; `None` if it is nowhere.
-fn travel(body: &Body, (joint, direction): (JointId, Vector), circuit: &Circuit) -> Option<[Point; 2]> {
-    let place = |sample: usize| {
-        let at = |joint: JointId| circuit.positions.point(joint, sample);
-        body.anchor.plane_from_body(&at).inverse().apply(at(joint))
-    };
-    let places: Vec<Point> = (0..circuit.len()).map(place).filter(|p| p.x.is_finite() && p.y.is_finite()).collect();
-    let along = |p: &Point| direction.dot(&p.coords);
-    let [least, most] = [f64::min, f64::max].map(|choose| places.iter().map(&along).reduce(choose));
-    let offset = left_normal(direction) * cross(direction, places.first()?.coords);
-    Some([least?, most?].map(|along| Point::from(direction * along + offset)))
 }
 
 /// How far the two guide pins of a block are from its joint: so far that they are clear of its other holes and of its slot, and their own slots of the

@@ -160,3 +160,30 @@ fn gears_are_fastened_to_their_cranks() {
     let parts = curves[0].parts(GivenSizes { hole: Some(6.0), width: None }).unwrap();
     assert_eq!(part(&parts, "gear O").notes, ["no room for a second hole: fasten it to OA"]);
 }
+
+/// No sample is at the ends of these slots.
+#[test]
+fn slots_are_as_long_as_the_motion_and_not_as_its_samples() {
+    let way = |joints: &str, traced: &str, name: &str| {
+        let (parts, ..) = built(joints, traced, "");
+        let part = part(&parts, name);
+        assert_eq!(part.slots.len(), 1, "{name}");
+        let [from, to] = part.slots[0].ends;
+        // Two guide pins in one slot are this far apart.
+        let block = parts.parts.iter().filter(|part| part.name.ends_with(" B")).flat_map(|block| &block.holes);
+        let pins: Vec<Point> = block.filter(|hole| hole.name.is_empty()).map(|hole| hole.centre).collect();
+        (to - from).norm() - parts.sizes.hole - pins.first().map_or(0.0, |pin| (pins[1] - pin).norm())
+    };
+    let crank = "O = { fixed = [0, 0] }\nA = { crank = \"O\", length = 1.1 }";
+    let yoke = "X = { fixed = [1, 0] }\nY = { yoke = \"A\", line = [\"O\", \"X\"], offset = 0, angle = \"90 deg\" }";
+    let arm = "C = { fixed = [3, 2] }\nB = { slot = [\"C\", \"A\"] }";
+    let slider = "X = { fixed = [1, 0] }\nB = { slide = \"A\", length = 3, line = [\"O\", \"X\"], offset = 0.7, side = \"ahead\" }";
+    for (joints, traced, name, expected) in [
+        (yoke, "Y", "yoke Y", 2.2),
+        (arm, "B", "CB-A", 2.2),
+        (slider, "B", "frame", (4.1f64 * 4.1 - 0.49).sqrt() - (1.9f64 * 1.9 - 0.49).sqrt()),
+    ] {
+        let found = way(&format!("{crank}\n{joints}\n"), traced, name);
+        assert!((found - expected).abs() < 1e-12, "{name}: {found} {expected}");
+    }
+}

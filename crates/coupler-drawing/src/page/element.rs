@@ -215,7 +215,9 @@ impl TextLine {
     /// A line like this one with other words, all in the face of its first run.
     fn with_words(&self, words: &str) -> TextLine {
         let runs = self.text.runs.first().map(|run| runs_with_exponents(words, run.face)).unwrap_or_default();
-        TextLine { text: Text { runs, ..self.text.clone() } }
+        // Its own words are not copied, since this is called for each word of a text that is broken.
+        let Text { position, anchor, size, color, quarter_turns, .. } = self.text;
+        TextLine { text: Text { position, anchor, size, color, runs, quarter_turns } }
     }
 
     /// The text in lines no wider than `width`, broken at the separators of its parts where that is possible, and

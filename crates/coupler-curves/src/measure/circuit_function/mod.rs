@@ -7,9 +7,11 @@
 
 mod monotonic;
 mod places;
+mod squared_distance;
 
 pub(super) use monotonic::MonotonicPart;
 pub(super) use places::Extreme;
+pub(crate) use squared_distance::SquaredDistance;
 
 use std::rc::Rc;
 
@@ -39,7 +41,7 @@ const POSITION_ROUNDING: f64 = 16.0 * f64::EPSILON;
 const GREATEST_ERROR: f64 = 1e-5;
 
 /// A function of the pose that is smooth along every pass.
-pub(super) trait Quantity {
+pub(crate) trait Quantity {
     /// The joints that the value is computed from.
     fn joints(&self) -> Vec<JointId>;
 
@@ -56,8 +58,27 @@ pub(super) trait Quantity {
     }
 }
 
+/// One function along a circuit serves the quantities of which only the range is needed.
+impl Quantity for &dyn Quantity {
+    fn joints(&self) -> Vec<JointId> {
+        (**self).joints()
+    }
+
+    fn value(&self, pose: &Pose) -> f64 {
+        (**self).value(pose)
+    }
+
+    fn sensitivity(&self, pose: &Pose) -> f64 {
+        (**self).sensitivity(pose)
+    }
+
+    fn period(&self) -> Option<f64> {
+        (**self).period()
+    }
+}
+
 /// The joints of a quantity in a pose.
-pub(super) struct Pose<'a> {
+pub(crate) struct Pose<'a> {
     positions: &'a [(JointId, Point)],
     /// The assembly mode.
     pub mode: AssemblyMode,
@@ -72,6 +93,21 @@ impl Pose<'_> {
         let found = self.positions.iter().find(|(other, _)| *other == joint);
         found.map(|(_, point)| *point).expect("a joint of the quantity")
     }
+}
+
+/// The least and the greatest value of a quantity over a circuit of a linkage, also between samples; that of the samples where the quantity is undefined
+/// at some place or too close to tell, such as one that does not change. `None` if it is nowhere defined.
+pub(crate) fn range_over(circuit: &Circuit, linkage: &Linkage, quantity: &dyn Quantity) -> Option<[f64; 2]> {
+    if let Ok(function) = CircuitFunction::new(circuit, [linkage; 2], quantity) {
+        return Some(function.range());
+    }
+    let value = |sample: usize| {
+        let position = |joint: JointId| (joint, circuit.positions.point(joint, sample));
+        let positions: Vec<(JointId, Point)> = quantity.joints().into_iter().map(position).collect();
+        quantity.value(&Pose { positions: &positions, mode: circuit.mode_at(sample) })
+    };
+    let values = || (0..circuit.len()).map(value).filter(|value| value.is_finite());
+    Some([values().reduce(f64::min)?, values().reduce(f64::max)?])
 }
 
 /// Why there is no function along a circuit.

@@ -32,6 +32,11 @@ impl<Q: Quantity> CircuitFunction<Q> {
         })
     }
 
+    /// The least and the greatest value.
+    pub fn range(&self) -> [f64; 2] {
+        self.extremes().map(|extreme| extreme.value)
+    }
+
     /// The beginning and the end of each span.
     fn span_ends(&self) -> Vec<Place> {
         (0..self.spans.len()).flat_map(|span| [-1.0, 1.0].map(|u| Place { span, u })).collect()
