@@ -266,20 +266,23 @@ impl<'a> LabelPlacer<'a> {
         clearance >= LEAST * self.enough()
     }
 
-    /// Places a label at a distance from the circle of a radius around its point if it overlaps nothing there, with a line to it from the circle that passes
-    /// no other label and no disk; the label and the ends of the line.
+    /// Places a label at a distance from the circle of a radius around its point if it overlaps nothing there, with a line from the circle to just before it
+    /// that passes no other label and no disk; the label and the ends of the line.
     pub fn place_apart(
         &mut self,
         (centre, radius): (Point, f64),
         distance: f64,
         text: Text,
     ) -> Option<(Item, [Point; 2])> {
+        /// How far the line ends before the label, in ems: it touches no letter.
+        const GAP: f64 = 0.1;
         let (half, enough) = (half_size(&text), self.enough());
         let near = self.obstacles.nearby(centre, radius + distance + 2.0 * half.x + enough);
         let mut spots = boxes_around(centre, half, radius + distance).filter(|spot| self.is_free(spot));
         let (spot, line) = spots.find_map(|spot| {
             let end = centre.sup(&spot.corner(-1.0, -1.0)).inf(&spot.corner(1.0, 1.0));
-            let line = [centre + (end - centre).try_normalize(0.0)? * radius, end];
+            let unit = (end - centre).try_normalize(0.0)?;
+            let line = [centre + unit * radius, end - unit * (GAP * text.size)];
             let passes = |(at, radius): &(Point, f64)| {
                 (at - centre).norm() > 0.0 && distance_to_segment(*at, line[0], line[1]) < *radius
             };
